@@ -1,0 +1,160 @@
+#include "app/commands.h"
+
+#include "app/editor.h"
+#include "app/report.h"
+#include "app/shot.h"
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <CLI/CLI.hpp>
+
+namespace coif
+{
+
+static int run_check(const std::vector<std::string>& styles)
+{
+    int status = 0;
+    for (const std::string& name : styles)
+        try
+        {
+            Hairstyle style = load_hairstyle(find_style(name));
+            load_assets(style);
+            fmt::print("{}: good\n", name);
+        }
+        catch (const Error& e)
+        {
+            fmt::print("{}\n", e.what());
+            status = 1;
+        }
+    return status;
+}
+
+static int run_keys()
+{
+    const Hairstyle defaults;
+    for (const ParamInfo& info : param_table())
+    {
+        std::string range;
+        if (info.kind == Kind::CHOICE)
+            range = fmt::format("{}", fmt::join(param_labels(info), " | "));
+        else if (!info.on_host())
+            range = fmt::format("[{}, {}]{}{}", info.min, info.max, *info.unit ? " " : "", info.unit);
+        fmt::print("{:<28} {:<13} {:<20} {:<28} {}\n", info.path(), kind_name(info.kind),
+                   info.kind == Kind::LIST ? "" : value_text(defaults, info), range, info.help);
+    }
+    return 0;
+}
+
+static int run_save(const Options& options)
+{
+    Hairstyle style = load_style(options);
+    load_assets(style); // refuses what could not be opened again
+    save_hairstyle(style, options.output);
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
+static int run_shot(const Options& options, ShotOptions shot, const std::string& size)
+{
+    parse_size(size, shot);
+    save_png(options.output, take_shot(options, shot));
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
+static int run_edit(Options options)
+{
+    if (has_display())
+        return edit(options);
+    options.output = find_style(options.style).stem().string() + ".png";
+    fmt::print(stderr, "coif: there is no display, so here is a picture instead: {}\n",
+               std::filesystem::absolute(options.output).string());
+    save_png(options.output, take_shot(options, {}));
+    return 0;
+}
+
+int run_command(int argc, char** argv)
+{
+    CLI::App app("coif: write a hairstyle, see it live, shape it, take its picture.", "coif");
+    app.set_help_all_flag("--help-all", "Help of every command");
+    app.require_subcommand(0, 1);
+    Options options;
+    ShotOptions shot;
+    ReportOptions wanted;
+    std::string size = "1280x720";
+    std::vector<std::string> styles;
+
+    const auto common = [&](CLI::App* command, bool style_needed)
+    {
+        command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset")->required(style_needed);
+        command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
+            ->allow_extra_args(false);
+        return command;
+    };
+    const auto with_device = [&](CLI::App* command)
+    {
+        command->add_option("--device", options.device, "cpu, gpu, or a part of an OpenCL device's name");
+        return command;
+    };
+    CLI::App* edit_command = with_device(common(app.add_subcommand("edit", "Open the editor (the default)"), false));
+
+    CLI::App* shot_command = with_device(common(app.add_subcommand("shot", "Draw a picture without a window"), true));
+    shot_command->add_option("-o,--output", options.output, "PNG to write")->required();
+    shot_command->add_option("--size", size, "WIDTHxHEIGHT in pixels, up to 8192 each")->capture_default_str();
+    shot_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")->capture_default_str();
+    shot_command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
+    shot_command->add_option("--camera", shot.camera, "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
+    shot_command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")->capture_default_str();
+    shot_command->add_flag("--transparent", shot.transparent, "No backdrop: alpha instead");
+
+    CLI::App* report_command = with_device(common(app.add_subcommand("report", "Play a motion and print health"), true));
+    report_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")->capture_default_str();
+    report_command->add_option("--seconds", options.seconds, "How long")->capture_default_str();
+    report_command->add_option("--fps", wanted.fps, "Frames a second that are looked at")->capture_default_str();
+    report_command->add_option("--settle", wanted.settle, "Seconds at rest before the motion")->capture_default_str();
+    report_command->add_flag("--json", wanted.json, "One JSON object");
+    report_command->add_flag("--csv", wanted.csv, "One line a frame")->excludes("--json");
+    report_command->add_option("-o,--output", options.output, "File to write instead of the terminal");
+
+    CLI::App* check_command = app.add_subcommand("check", "Validate hairstyle files and what they name");
+    check_command->add_option("STYLE", styles, "Hairstyle files")->required();
+    CLI::App* keys_command = app.add_subcommand("keys", "List everything a hairstyle can say");
+    CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
+    save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
+
+    // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.
+    std::vector<std::string> words(argv + 1, argv + argc);
+    bool is_command = !words.empty() && words[0].rfind("-h", 0) != 0 && words[0].rfind("--help", 0) != 0;
+    for (const CLI::App* command : app.get_subcommands({}))
+        is_command = is_command && words[0] != command->get_name();
+    if (words.empty() || is_command)
+        words.insert(words.begin(), "edit");
+    try
+    {
+        std::reverse(words.begin(), words.end()); // as CLI11 takes them
+        app.parse(words);
+    }
+    catch (const CLI::Success& e)
+    {
+        return app.exit(e);
+    }
+    catch (const CLI::ParseError& e)
+    {
+        app.exit(e);
+        return 2;
+    }
+    if (shot_command->parsed())
+        return run_shot(options, shot, size);
+    if (report_command->parsed())
+        return report(options, wanted);
+    if (check_command->parsed())
+        return run_check(styles);
+    if (keys_command->parsed())
+        return run_keys();
+    if (save_command->parsed())
+        return run_save(options);
+    (void)edit_command;
+    return run_edit(options);
+}
+
+} // namespace coif

@@ -1,0 +1,2 @@
+#include "app/editor.h"
+namespace coif { int edit(const Options&) { return 0; } }

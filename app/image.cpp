@@ -1,0 +1,54 @@
+#include "app/image.h"
+
+#include "sim/error.h"
+#include "sim/hairstyle.h"
+
+// Debian's libstb is a library: the headers declare, it defines.
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+namespace coif
+{
+
+void save_png(const std::filesystem::path& file, const Image& image)
+{
+    std::string bytes;
+    const auto append = [](void* to, void* data, int size)
+    { static_cast<std::string*>(to)->append(static_cast<const char*>(data), size_t(size)); };
+    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.pixels.data(), 4 * image.width))
+        throw fail("{}: the picture could not be encoded", file.string());
+    write_file(file, bytes);
+}
+
+Image load_png(const std::filesystem::path& file)
+{
+    const std::string bytes = read_file(file, 1 << 28);
+    Image image;
+    int channels = 0;
+    unsigned char* pixels = stbi_load_from_memory(reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                  int(bytes.size()), &image.width, &image.height, &channels, 4);
+    if (!pixels)
+        throw fail("{}: is no picture that coif can read: {}", file.string(), stbi_failure_reason());
+    image.pixels.assign(pixels, pixels + size_t(4) * size_t(image.width) * size_t(image.height));
+    stbi_image_free(pixels);
+    return image;
+}
+
+Image shrunk(const Image& image, int by)
+{
+    Image small{image.width / by, image.height / by, {}};
+    for (int y = 0; y < small.height; ++y)
+        for (int x = 0; x < small.width; ++x)
+            for (int c = 0; c < 4; ++c)
+            {
+                int sum = 0;
+                for (int j = 0; j < by; ++j)
+                    for (int i = 0; i < by; ++i)
+                        sum += image.pixels[size_t(4) * (size_t(y * by + j) * size_t(image.width) + size_t(x * by + i)) +
+                                            size_t(c)];
+                small.pixels.push_back(static_cast<unsigned char>(sum / (by * by)));
+            }
+    return small;
+}
+
+} // namespace coif

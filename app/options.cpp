@@ -1,0 +1,51 @@
+#include "app/options.h"
+
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <algorithm>
+
+namespace coif
+{
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> preset_files()
+{
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(data_folder() / "hairstyles", error))
+        if (entry.path().extension() == ".toml")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+fs::path find_style(const std::string& name_or_path)
+{
+    if (name_or_path.empty())
+        return data_folder() / "hairstyles" / "bob.toml";
+    std::error_code error;
+    if (fs::exists(name_or_path, error))
+        return name_or_path;
+    std::vector<std::string> names;
+    for (const fs::path& file : preset_files())
+    {
+        names.push_back(file.stem().string());
+        if (name_or_path == names.back())
+            return file;
+    }
+    throw fail("'{}' is neither a file nor one of coif's presets: {}", name_or_path, fmt::join(names, ", "));
+}
+
+Hairstyle load_style(const Options& options)
+{
+    Hairstyle style = load_hairstyle(find_style(options.style));
+    for (const std::string& set : options.sets)
+        assign(style, set);
+    return style;
+}
+
+Device open_device(const Options& options) { return open_device(options.device, data_folder() / "kernels"); }
+
+} // namespace coif

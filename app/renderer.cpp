@@ -1,0 +1,558 @@
+#include "app/renderer.h"
+
+#include "sim/error.h"
+#include "sim/wave.h"
+
+#include <SDL.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coif
+{
+
+// Mirrors shaders/frame.glsl.
+struct FrameBlock
+{
+    glm::mat4 view_projection;
+    float4 camera_position, head_row0, head_row1, head_row2, grid_corner, sweep;
+    int slices[4];
+};
+
+struct Renderer::Programs
+{
+    ShaderProgram strand, surface, guide, background, add, show;
+    explicit Programs(const std::filesystem::path& folder)
+        : strand(folder, "strand"), surface(folder, "surface"), guide(folder, "guide"),
+          background(folder, "background", "screen"), add(folder, "add", "screen"), show(folder, "show", "screen")
+    {
+    }
+};
+
+glm::dvec3 Camera::position() const
+{
+    return target + distance * glm::dvec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
+}
+
+Camera camera_of(const HairParams& authored)
+{
+    const HairParams p = device_params(authored); // radians
+    Camera camera;
+    camera.target = {p.camera_target.x, p.camera_target.y, p.camera_target.z};
+    camera.yaw = p.camera_yaw;
+    camera.pitch = p.camera_pitch;
+    camera.fov = p.camera_fov;
+    camera.distance = p.camera_distance;
+    return camera;
+}
+
+void keep_camera(const Camera& camera, HairParams& params)
+{
+    const double degrees = 180.0 / std::numbers::pi;
+    const auto rounded = [](double value, double unit) { return float(std::round(value / unit) * unit); };
+    params.camera_yaw = rounded(std::remainder(camera.yaw * degrees, 360.0), 0.1);
+    params.camera_pitch = rounded(camera.pitch * degrees, 0.1);
+    params.camera_fov = rounded(camera.fov * degrees, 0.1);
+    params.camera_distance = rounded(camera.distance, 1e-3);
+    params.camera_target = F4(rounded(camera.target.x, 1e-3), rounded(camera.target.y, 1e-3),
+                              rounded(camera.target.z, 1e-3), 0.0f);
+}
+
+FrameInput frame_input(const Simulation& simulation, const Camera& camera)
+{
+    FrameInput frame;
+    frame.simulation = &simulation;
+    const Solver& solver = simulation.solver();
+    frame.drawn_positions = solver.drawn_positions();
+    frame.drawn_frames = solver.drawn_frames();
+    frame.guide_positions = solver.guide_positions();
+    frame.optical_depth = solver.optical_depth();
+    frame.params = simulation.style().params;
+    frame.camera = camera;
+    return frame;
+}
+
+static GLuint make_buffer()
+{
+    GLuint buffer = 0;
+    glGenBuffers(1, &buffer);
+    return buffer;
+}
+
+static GLuint make_array()
+{
+    GLuint array = 0;
+    glGenVertexArrays(1, &array);
+    return array;
+}
+
+static void attribute(GLuint index, GLint size, GLsizei stride, size_t offset)
+{
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, stride, reinterpret_cast<const void*>(offset));
+}
+
+Renderer::Renderer(const std::filesystem::path& shader_folder)
+    : shader_folder_(shader_folder), programs_(std::make_unique<Programs>(shader_folder))
+{
+    for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &index_buffer_,
+                           &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_, &guide_buffer_})
+        *buffer = make_buffer();
+    for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &guide_array_, &empty_array_})
+        *array = make_array();
+
+    const std::pair<GLuint, size_t> blocks[] = {{frame_block_, sizeof(FrameBlock)}, {params_block_, sizeof(HairParams)}};
+    for (GLuint i = 0; i < 2; ++i)
+    {
+        glBindBuffer(GL_UNIFORM_BUFFER, blocks[i].first);
+        glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(blocks[i].second), nullptr, GL_DYNAMIC_DRAW);
+        glBindBufferBase(GL_UNIFORM_BUFFER, i, blocks[i].first); // BlockBinding
+    }
+
+    glBindVertexArray(strand_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
+    attribute(0, 4, 0, 0);
+    glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
+    attribute(1, 4, 0, 0);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
+
+    glBindVertexArray(mesh_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_buffer_);
+    attribute(0, 3, 7 * sizeof(float), 0);
+    attribute(1, 3, 7 * sizeof(float), 3 * sizeof(float));
+    attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh_indices_);
+
+    glBindVertexArray(guide_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, guide_buffer_);
+    attribute(0, 3, 4 * sizeof(float), 0);
+    attribute(3, 1, 4 * sizeof(float), 3 * sizeof(float));
+
+    // A sphere for obstacles: rings of latitude.
+    std::vector<float> sphere;
+    std::vector<unsigned> faces;
+    const unsigned rings = 24, sides = 36;
+    for (unsigned i = 0; i <= rings; ++i)
+        for (unsigned j = 0; j <= sides; ++j)
+        {
+            const float theta = std::numbers::pi_v<float> * float(i) / rings;
+            const float phi = 2.0f * std::numbers::pi_v<float> * float(j) / sides;
+            const float p[3] = {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+            sphere.insert(sphere.end(), {p[0], p[1], p[2], p[0], p[1], p[2], 0.0f});
+            const unsigned a = i * (sides + 1) + j, b = a + sides + 1;
+            if (i < rings && j < sides)
+                faces.insert(faces.end(), {a, a + 1, b, b, a + 1, b + 1});
+        }
+    glBindVertexArray(sphere_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, sphere_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(sphere.size() * sizeof(float)), sphere.data(), GL_STATIC_DRAW);
+    attribute(0, 3, 7 * sizeof(float), 0);
+    attribute(1, 3, 7 * sizeof(float), 3 * sizeof(float));
+    attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sphere_indices_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(unsigned)), faces.data(), GL_STATIC_DRAW);
+    sphere_index_count_ = GLsizei(faces.size());
+
+    glGenTextures(1, &depth_texture_);
+    glBindTexture(GL_TEXTURE_3D, depth_texture_);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    glGenTextures(1, &wave_texture_);
+    glBindTexture(GL_TEXTURE_1D, wave_texture_);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+}
+
+Renderer::~Renderer()
+{
+    for (Target* target : {&scene_, &single_, &sum_})
+    {
+        glDeleteFramebuffers(1, &target->framebuffer);
+        glDeleteRenderbuffers(1, &target->color);
+        glDeleteRenderbuffers(1, &target->depth);
+        glDeleteTextures(1, &target->texture);
+    }
+    for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, index_buffer_, mesh_buffer_,
+                          mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_})
+        glDeleteBuffers(1, &buffer);
+    for (GLuint array : {strand_array_, mesh_array_, sphere_array_, guide_array_, empty_array_})
+        glDeleteVertexArrays(1, &array);
+    for (GLuint texture : {depth_texture_, wave_texture_})
+        glDeleteTextures(1, &texture);
+}
+
+void Renderer::reload_shaders() { programs_ = std::make_unique<Programs>(shader_folder_); }
+
+std::string Renderer::name() const { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
+
+// A texture of one sample a pixel, or a renderbuffer of several.
+void Renderer::prepare(Target& target, int width, int height, int samples, GLenum format, bool with_depth)
+{
+    if (target.width == width && target.height == height && target.samples == samples)
+        return;
+    glDeleteFramebuffers(1, &target.framebuffer);
+    glDeleteRenderbuffers(1, &target.color);
+    glDeleteRenderbuffers(1, &target.depth);
+    glDeleteTextures(1, &target.texture);
+    target = {};
+    glGenFramebuffers(1, &target.framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    if (samples > 0)
+    {
+        glGenRenderbuffers(1, &target.color);
+        glBindRenderbuffer(GL_RENDERBUFFER, target.color);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color);
+    }
+    else
+    {
+        glGenTextures(1, &target.texture);
+        glBindTexture(GL_TEXTURE_2D, target.texture);
+        glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
+    }
+    if (with_depth)
+    {
+        glGenRenderbuffers(1, &target.depth);
+        glBindRenderbuffer(GL_RENDERBUFFER, target.depth);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth);
+    }
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw fail("the driver cannot draw a picture of {} x {} pixels", width, height);
+    target.width = width;
+    target.height = height;
+    target.samples = samples;
+}
+
+// The head with the share of each vertex that lies under the roots: within 4 mm of the scalp wholly, fading out at 14.
+void Renderer::upload_mesh(const FrameInput& frame)
+{
+    const Assets& assets = frame.simulation->assets();
+    const HairParams& p = frame.params;
+    const std::vector<float> key = {p.head_mesh_scale, p.head_offset.x, p.head_offset.y, p.head_offset.z,
+                                    float(assets.head.positions.size()), float(assets.scalp.positions.size())};
+    if (mesh_of_ == assets.head.positions.data() && mesh_key_ == key)
+        return;
+    mesh_of_ = assets.head.positions.data();
+    mesh_key_ = key;
+    const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
+    const Scalp& scalp = assets.scalp;
+    const float near = 0.02f * scalp.extent, far = 0.07f * scalp.extent;
+    std::vector<glm::vec4> balls; // about each triangle, to skip those out of reach
+    for (const glm::uvec3& t : scalp.triangles)
+    {
+        const glm::vec3 middle = (scalp.positions[t.x] + scalp.positions[t.y] + scalp.positions[t.z]) / 3.0f;
+        float radius = 0.0f;
+        for (int k = 0; k < 3; ++k)
+            radius = std::max(radius, glm::distance(middle, scalp.positions[t[k]]));
+        balls.emplace_back(middle, radius);
+    }
+    std::vector<float> vertices;
+    vertices.reserve(assets.head.positions.size() * 7);
+    for (size_t i = 0; i < assets.head.positions.size(); ++i)
+    {
+        const glm::vec3 at = assets.head.positions[i] * p.head_mesh_scale + offset, n = assets.head.normals[i];
+        float nearest = far;
+        for (size_t t = 0; t < balls.size(); ++t)
+        {
+            if (glm::distance(at, glm::vec3(balls[t])) - balls[t].w > nearest)
+                continue;
+            const glm::uvec3 corner = scalp.triangles[t];
+            nearest = std::min(nearest, triangle_distance(at, scalp.positions[corner.x], scalp.positions[corner.y],
+                                                          scalp.positions[corner.z]));
+        }
+        const float share = 1.0f - glm::smoothstep(near, far, nearest);
+        vertices.insert(vertices.end(), {at.x, at.y, at.z, n.x, n.y, n.z, share});
+    }
+    glBindVertexArray(mesh_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(float)), vertices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(assets.head.triangles.size() * sizeof(glm::uvec3)),
+                 assets.head.triangles.data(), GL_STATIC_DRAW);
+    mesh_index_count_ = GLsizei(assets.head.triangles.size() * 3);
+}
+
+// Strands from far to near, by their middle node, so that their soft edges blend over what lies behind them.
+void Renderer::upload_order(const FrameInput& frame, glm::vec3 forward)
+{
+    const Groom& groom = frame.simulation->solver().groom();
+    const unsigned nodes = unsigned(groom.nodes), strands = unsigned(groom.drawn.size());
+    const float4* p = frame.drawn_positions.as<float4>();
+    order_.clear();
+    for (unsigned s = 0; s < strands; ++s)
+    {
+        const float4 middle = p[s * nodes + (nodes + 1) / 2];
+        const float depth = middle.x * forward.x + middle.y * forward.y + middle.z * forward.z;
+        order_.emplace_back(std::isfinite(depth) ? -depth : 0.0f, s);
+    }
+    std::sort(order_.begin(), order_.end());
+    indices_.clear();
+    indices_.reserve(size_t(strands) * (nodes - 2) * 4);
+    for (const auto& [depth, s] : order_)
+        for (unsigned k = 1; k + 1 < nodes; ++k) // the segment under the scalp is not drawn
+            for (const unsigned node : {k - 1, k, k + 1, std::min(k + 2, nodes - 1)})
+                indices_.push_back(s * nodes + node);
+    glBindVertexArray(strand_array_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices_.size() * sizeof(unsigned)), indices_.data(),
+                 GL_STREAM_DRAW);
+    strand_index_count_ = GLsizei(indices_.size());
+}
+
+void Renderer::upload(const FrameInput& frame)
+{
+    const HairParams params = device_params(frame.params);
+    glBindBuffer(GL_UNIFORM_BUFFER, params_block_);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof params, &params);
+
+    const std::vector<float> waves = wave_table(frame.params);
+    glBindTexture(GL_TEXTURE_1D, wave_texture_);
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_RG32F, kWaveSamples, 0, GL_RG, GL_FLOAT, waves.data());
+
+    glBindTexture(GL_TEXTURE_3D, depth_texture_);
+    const int resolution = frame.optical_depth.bytes() ? params.grid_resolution : 1;
+    const float nothing = 0.0f;
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, resolution, resolution, resolution, 0, GL_RED, GL_FLOAT,
+                 resolution > 1 ? frame.optical_depth.as<float>() : &nothing);
+
+    if (params.render_show != 1)
+    {
+        glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_positions.bytes()), frame.drawn_positions.as<float>(),
+                     GL_STREAM_DRAW);
+        glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_frames.bytes()), frame.drawn_frames.as<float>(),
+                     GL_STREAM_DRAW);
+        upload_order(frame, glm::vec3(glm::normalize(frame.camera.target - frame.camera.position())));
+    }
+    upload_mesh(frame);
+}
+
+void Renderer::draw_solids(const FrameInput& frame)
+{
+    const ShaderProgram& program = programs_->surface;
+    const HairParams params = device_params(frame.params);
+    glUseProgram(program.id());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_3D, depth_texture_);
+    glUniform1i(program.uniform("optical_depth"), 0);
+
+    const float4 skin = params.head_color;
+    glUniform4f(program.uniform("albedo"), skin.x, skin.y, skin.z, params.head_scalp_tint);
+    glUniform4f(program.uniform("place"), 0.0f, 0.0f, 0.0f, params.head_scale);
+    glUniform1i(program.uniform("on_head"), 1);
+    glBindVertexArray(mesh_array_);
+    glDrawElements(GL_TRIANGLES, mesh_index_count_, GL_UNSIGNED_INT, nullptr);
+
+    glUniform4f(program.uniform("albedo"), 0.30f, 0.34f, 0.40f, 0.0f);
+    glUniform1i(program.uniform("on_head"), 0);
+    glBindVertexArray(sphere_array_);
+    // The head's own spheres come first and stand for its mesh; the style's obstacles after them are shown.
+    const std::vector<float4> placed = frame.simulation->solver().placed_colliders();
+    for (size_t i = frame.simulation->assets().spheres.size(); i < placed.size(); ++i)
+    {
+        glUniform4f(program.uniform("place"), placed[i].x, placed[i].y, placed[i].z, placed[i].w);
+        glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
+    }
+}
+
+void Renderer::draw_strands(const FrameInput& frame)
+{
+    const ShaderProgram& program = programs_->strand;
+    glUseProgram(program.id());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_1D, wave_texture_);
+    glUniform1i(program.uniform("wave"), 0);
+    glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBindVertexArray(strand_array_);
+    glDrawElements(GL_LINES_ADJACENCY, strand_index_count_, GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_BLEND);
+}
+
+void Renderer::draw_guides(const FrameInput& frame)
+{
+    const Groom& groom = frame.simulation->solver().groom();
+    const float* x = frame.guide_positions.as<float>();
+    std::vector<float> lines;
+    for (int g = 0; g < groom.guides; ++g)
+        for (int k = 1; k < groom.nodes; ++k)
+            for (const int node : {k - 1, k})
+            {
+                for (int axis = 0; axis < 3; ++axis)
+                    lines.push_back(x[strand_value(g, node, axis, groom.nodes)]);
+                lines.push_back(float(node) / float(groom.nodes - 1));
+            }
+    glUseProgram(programs_->guide.id());
+    glBindVertexArray(guide_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, guide_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(lines.size() * sizeof(float)), lines.data(), GL_STREAM_DRAW);
+    glDrawArrays(GL_LINES, 0, GLsizei(lines.size() / 4));
+}
+
+void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter)
+{
+    const Solver& solver = frame.simulation->solver();
+    const StepInfo& info = solver.info();
+    const glm::vec3 eye(frame.camera.position() - solver.head().origin);
+    const glm::vec3 target(frame.camera.target - solver.head().origin);
+    const float near = float(frame.camera.distance) * 0.02f, far = float(frame.camera.distance) * 4.0f + 20.0f;
+    const float tangent = std::tan(0.5f * float(frame.camera.fov));
+    // The part of the whole picture's frustum, moved by the jitter in pixels.
+    const float pixel = 2.0f * tangent / float(whole_height); // at a distance of one
+    const float left = (float(part.x) + jitter.x - 0.5f * float(whole_width)) * pixel;
+    const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel;
+    const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
+                                              (bottom + float(part.height) * pixel) * near, near, far);
+    FrameBlock block;
+    block.view_projection = projection * glm::lookAt(eye, target, glm::vec3(0, 1, 0));
+    block.camera_position = F4(eye.x, eye.y, eye.z, pixel);
+    block.head_row0 = info.head_row0;
+    block.head_row1 = info.head_row1;
+    block.head_row2 = info.head_row2;
+    block.grid_corner = info.grid_corner;
+    block.sweep = info.sweep;
+    const int slices[4] = {info.sweep_axis, info.sweep_from, info.sweep_sign,
+                           frame.optical_depth.bytes() ? frame.params.grid_resolution : 0};
+    std::copy(slices, slices + 4, block.slices);
+    glBindBuffer(GL_UNIFORM_BUFFER, frame_block_);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof block, &block);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, scene_.framebuffer);
+    glViewport(0, 0, part.width, part.height);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_DEPTH_TEST);
+    if (!frame.transparent)
+    {
+        glUseProgram(programs_->background.id());
+        glUniform4f(programs_->background.uniform("part"), float(part.x) / float(whole_width),
+                    float(part.y) / float(whole_height), float(part.width) / float(whole_width),
+                    float(part.height) / float(whole_height));
+        glBindVertexArray(empty_array_);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    glEnable(GL_DEPTH_TEST);
+    draw_solids(frame);
+    if (frame.params.render_show != 1)
+        draw_strands(frame);
+    if (frame.params.render_show != 0)
+        draw_guides(frame);
+    glDisable(GL_DEPTH_TEST);
+    if (scene_.samples > 0)
+    {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, scene_.framebuffer);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.framebuffer);
+        glBlitFramebuffer(0, 0, part.width, part.height, 0, 0, part.width, part.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+}
+
+// Samples of a choice: auto, off, 2x, 4x, 8x, within what the driver gives.
+static int multisamples(int choice)
+{
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    const int wanted = choice == 0 ? (is_software_renderer() ? 0 : 4) : choice == 1 ? 0 : 1 << (choice - 1);
+    return std::min(wanted, int(most));
+}
+
+// Offsets within a pixel, in [-1/2, 1/2], that fill it evenly however many are taken: the R2 sequence (Roberts 2018).
+static glm::vec2 jitter_of(int sample)
+{
+    const double a = 0.7548776662466927, b = 0.5698402909980532;
+    const double x = 0.5 + a * sample, y = 0.5 + b * sample;
+    return glm::vec2(float(x - std::floor(x) - 0.5), float(y - std::floor(y) - 0.5));
+}
+
+GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
+{
+    const int samples = multisamples(frame.params.render_multisample);
+    prepare(scene_, part.width, part.height, samples, GL_RGBA16F, true);
+    if (samples > 0)
+        prepare(single_, part.width, part.height, 0, GL_RGBA16F, false);
+    const GLuint one_sample = samples > 0 ? single_.texture : scene_.texture;
+    if (frame.samples == 1)
+    {
+        draw(frame, whole_width, whole_height, part, glm::vec2(0.0f));
+        return one_sample;
+    }
+    prepare(sum_, part.width, part.height, 0, GL_RGBA32F, false);
+    glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    for (int i = 0; i < frame.samples; ++i)
+    {
+        draw(frame, whole_width, whole_height, part, jitter_of(i));
+        glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ONE);
+        glUseProgram(programs_->add.id());
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, one_sample);
+        glUniform1i(programs_->add.uniform("picture"), 0);
+        glUniform1f(programs_->add.uniform("share"), 1.0f / float(frame.samples));
+        glBindVertexArray(empty_array_);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDisable(GL_BLEND);
+    }
+    return sum_.texture;
+}
+
+void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, part.width, part.height);
+    glUseProgram(programs_->show.id());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glUniform1i(programs_->show.uniform("picture"), 0);
+    glBindVertexArray(empty_array_);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::show(const FrameInput& frame, int width, int height)
+{
+    upload(frame);
+    const Part all = {0, 0, width, height};
+    resolve(accumulate(frame, width, height, all), 0, all);
+}
+
+Image Renderer::picture(const FrameInput& frame, int width, int height)
+{
+    if (width < 1 || height < 1 || width > 8192 || height > 8192)
+        throw fail("a picture of {} x {} pixels cannot be drawn; each side must lie in [1, 8192]", width, height);
+    upload(frame);
+    Image image{width, height, std::vector<unsigned char>(size_t(4) * size_t(width) * size_t(height))};
+    const int most = 2048; // pixels a side of a tile, which bounds the memory
+    Target bytes;
+    std::vector<unsigned char> pixels;
+    for (int y = 0; y < height; y += most)
+        for (int x = 0; x < width; x += most)
+        {
+            const Part part = {x, y, std::min(most, width - x), std::min(most, height - y)};
+            const GLuint texture = accumulate(frame, width, height, part);
+            prepare(bytes, part.width, part.height, 0, GL_RGBA8, false);
+            resolve(texture, bytes.framebuffer, part);
+            pixels.resize(size_t(4) * size_t(part.width) * size_t(part.height));
+            glPixelStorei(GL_PACK_ALIGNMENT, 1);
+            glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+            for (int row = 0; row < part.height; ++row) // GL's first row is the lowest
+                std::copy_n(&pixels[size_t(4) * size_t(row) * size_t(part.width)], size_t(4) * size_t(part.width),
+                            &image.pixels[size_t(4) * (size_t(height - 1 - y - row) * size_t(width) + size_t(x))]);
+        }
+    glDeleteFramebuffers(1, &bytes.framebuffer);
+    glDeleteTextures(1, &bytes.texture);
+    return image;
+}
+
+} // namespace coif

@@ -1,0 +1,100 @@
+#pragma once
+#include "app/gl.h"
+#include "app/image.h"
+#include "sim/simulation.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace coif
+{
+
+// From where a picture is taken, in the world.
+struct Camera
+{
+    glm::dvec3 target{0.0}; // m
+    double yaw = 0.0, pitch = 0.0, fov = 0.5; // rad; yaw 0 looks at the face, fov is vertical
+    double distance = 1.0; // m
+
+    glm::dvec3 position() const;
+};
+
+// The camera that a style keeps. Parameters as authored.
+Camera camera_of(const HairParams& params);
+void keep_camera(const Camera& camera, HairParams& params);
+
+// All that one picture depends on: equal inputs give equal pictures, on screen or headless.
+struct FrameInput
+{
+    const Simulation* simulation = nullptr; // meshes, colliders and style; the views below are of its last draw()
+    Mapped drawn_positions, drawn_frames, guide_positions, optical_depth;
+    HairParams params; // as authored
+    Camera camera;
+    bool transparent = false; // no backdrop: alpha instead
+    int samples = 1;          // jittered pictures that are averaged
+};
+
+// Takes the views; waits for the device.
+FrameInput frame_input(const Simulation& simulation, const Camera& camera);
+
+class Renderer
+{
+  public:
+    // Needs a current GL context. Throws Error when a shader does not compile.
+    explicit Renderer(const std::filesystem::path& shader_folder);
+    ~Renderer();
+
+    // Draws into the current window's own framebuffer, at its size in pixels.
+    void show(const FrameInput& frame, int width, int height);
+    // Draws apart from any window. At most 8192 x 8192; large pictures are put together of tiles.
+    Image picture(const FrameInput& frame, int width, int height);
+
+    // Compiles all shaders anew; throws, and keeps the old ones, when one fails.
+    void reload_shaders();
+    // What the driver calls itself.
+    std::string name() const;
+
+  private:
+    struct Programs;
+    struct Target // a picture to draw into
+    {
+        GLuint framebuffer = 0, color = 0, depth = 0, texture = 0;
+        int width = 0, height = 0, samples = -1;
+    };
+    struct Part // of the whole picture
+    {
+        int x, y, width, height;
+    };
+
+    void upload(const FrameInput& frame);
+    void upload_mesh(const FrameInput& frame);
+    void upload_order(const FrameInput& frame, glm::vec3 forward);
+    void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
+    void draw_solids(const FrameInput& frame);
+    void draw_strands(const FrameInput& frame);
+    void draw_guides(const FrameInput& frame);
+    // All samples of a part, averaged. Returns the texture that holds them.
+    GLuint accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
+    void resolve(GLuint texture, GLuint framebuffer, Part part);
+    void prepare(Target& target, int width, int height, int samples, GLenum format, bool with_depth);
+
+    std::filesystem::path shader_folder_;
+    std::unique_ptr<Programs> programs_;
+    Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
+    GLuint frame_block_ = 0, params_block_ = 0;
+    GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, index_buffer_ = 0;
+    GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
+    GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
+    GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
+    GLuint depth_texture_ = 0, wave_texture_ = 0;
+    GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0;
+    const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
+    std::vector<float> mesh_key_;
+    std::vector<std::pair<float, unsigned>> order_;
+    std::vector<unsigned> indices_;
+};
+
+} // namespace coif

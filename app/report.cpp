@@ -1,0 +1,133 @@
+#include "app/report.h"
+
+#include "sim/error.h"
+#include "sim/health.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <unistd.h>
+
+namespace coif
+{
+
+static double median(std::vector<double> values)
+{
+    if (values.empty())
+        return 0.0;
+    std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+static std::string escaped(const std::string& text)
+{
+    std::string out;
+    for (const char c : text)
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", int(c));
+        else
+            out += c;
+    return out;
+}
+
+// JSON has no NaN.
+static std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null"; }
+
+int report(const Options& options, const ReportOptions& wanted)
+{
+    if (!(wanted.fps >= 1.0 && wanted.fps <= 1000.0))
+        throw fail("--fps {}: expected 1 to 1000 frames a second", wanted.fps);
+    if (!(options.seconds > 0.0 && options.seconds <= 3600.0) || !(wanted.settle >= 0.0 && wanted.settle <= 3600.0))
+        throw fail("--seconds and --settle must lie within an hour");
+    const Motion motion = find_motion(options.motion);
+    const Hairstyle style = load_style(options);
+    const Device device = open_device(options);
+    Simulation simulation(device, style);
+    simulation.settle(wanted.settle);
+    simulation.solver().take_times();
+    simulation.play(motion);
+
+    const long frames = std::max(1L, std::lround(options.seconds * wanted.fps));
+    const bool progress = isatty(STDERR_FILENO) && frames > 30;
+    Health worst;
+    double stretch_sum = 0.0;
+    std::vector<double> frame_ms;
+    std::vector<std::pair<std::string, std::vector<double>>> pass_ms;
+    std::string csv = "frame,time,stretch_max,stretch_mean,penetration_mm,drawn_penetration_mm,ms\n";
+    for (long f = 0; f < frames; ++f)
+    {
+        simulation.advance(1.0 / wanted.fps, simulation.hand(), 1 << 20);
+        simulation.solver().draw();
+        const PassTimes times = simulation.solver().take_times();
+        double ms = 0.0;
+        for (const auto& [pass, spent] : times)
+        {
+            const std::string& name = pass;
+            auto found = std::find_if(pass_ms.begin(), pass_ms.end(), [&](const auto& p) { return p.first == name; });
+            if (found == pass_ms.end())
+                found = pass_ms.insert(pass_ms.end(), {pass, {}});
+            found->second.push_back(spent);
+            ms += spent;
+        }
+        frame_ms.push_back(ms);
+        const Health now = measure_health(simulation.solver(), style.params, true);
+        worst.stretch_max = std::max(worst.stretch_max, now.stretch_max);
+        worst.penetration_max = std::max(worst.penetration_max, now.penetration_max);
+        worst.drawn_penetration_max = std::max(worst.drawn_penetration_max, now.drawn_penetration_max);
+        worst.finite &= now.finite;
+        stretch_sum += now.stretch_mean;
+        csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f, simulation.time(), now.stretch_max,
+                           now.stretch_mean, 1e3 * now.penetration_max, 1e3 * now.drawn_penetration_max, ms);
+        if (progress && f % 10 == 0)
+            fmt::print(stderr, "\rframe {} of {} ", f, frames);
+    }
+    if (progress)
+        fmt::print(stderr, "\r\033[K");
+    const std::vector<int> resets = simulation.solver().resets();
+    const Groom& groom = simulation.solver().groom();
+    const double stretch_mean = stretch_sum / double(frames);
+    const long reset_count = std::accumulate(resets.begin(), resets.end(), 0L);
+
+    std::string text;
+    if (wanted.csv)
+        text = csv;
+    else if (wanted.json)
+    {
+        std::vector<std::string> passes;
+        for (const auto& [pass, spent] : pass_ms)
+            passes.push_back(fmt::format("\"{}\": {}", pass, number(median(spent))));
+        text = fmt::format(
+            "{{\"style\": \"{}\", \"motion\": \"{}\", \"device\": \"{}\", \"guides\": {}, \"strands\": {}, \"nodes\": "
+            "{}, \"frames\": {}, \"finite\": {}, \"stretch_max\": {}, \"stretch_mean\": {}, \"penetration_max_mm\": "
+            "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"dropped_steps\": {}, \"ms_frame_median\": {}, "
+            "\"ms_pass\": {{{}}}}}\n",
+            escaped(style.name()), escaped(motion.name), escaped(device.name), groom.guides, groom.drawn.size(),
+            groom.nodes, frames, worst.finite, number(worst.stretch_max), number(stretch_mean),
+            number(1e3 * worst.penetration_max), number(1e3 * worst.drawn_penetration_max), reset_count,
+            simulation.dropped(), number(median(frame_ms)), fmt::join(passes, ", "));
+    }
+    else
+    {
+        text = fmt::format("{} on {}, {}: {} guides of {} nodes, {} strands drawn, {} frames\n", style.name(),
+                           device.name, motion.name, groom.guides, groom.nodes, groom.drawn.size(), frames);
+        text += fmt::format("  stretch      worst {:.2f} %, mean {:.3f} %\n", 100 * worst.stretch_max,
+                            100 * stretch_mean);
+        text += fmt::format("  penetration  guides {:.2f} mm, drawn strands {:.2f} mm\n", 1e3 * worst.penetration_max,
+                            1e3 * worst.drawn_penetration_max);
+        text += fmt::format("  {}, {} strands reset, {} steps dropped\n", worst.finite ? "finite" : "NOT FINITE",
+                            reset_count, simulation.dropped());
+        text += fmt::format("  {:.2f} ms a frame (median)\n", median(frame_ms));
+        for (const auto& [pass, spent] : pass_ms)
+            text += fmt::format("    {:<20} {:.3f} ms\n", pass, median(spent));
+    }
+    if (options.output.empty())
+        fmt::print("{}", text);
+    else
+        write_file(options.output, text);
+    return worst.finite ? 0 : 1;
+}
+
+} // namespace coif

@@ -1,0 +1,18 @@
+#pragma once
+#include "app/options.h"
+
+namespace coif
+{
+
+struct ReportOptions
+{
+    double fps = 60.0;
+    double settle = 0.0; // s before the motion begins
+    bool json = false, csv = false;
+};
+
+// Plays a motion and says how the hair and the clock came through it. Returns the exit status: 1 if anything was not
+// finite.
+int report(const Options& options, const ReportOptions& wanted);
+
+} // namespace coif

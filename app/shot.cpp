@@ -1,0 +1,81 @@
+#include "app/shot.h"
+
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace coif
+{
+
+void parse_size(const std::string& text, ShotOptions& shot)
+{
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &shot.width, &shot.height, &end) != 2 || shot.width < 1 ||
+        shot.height < 1 || shot.width > 8192 || shot.height > 8192)
+        throw fail("--size {}: expected WIDTHxHEIGHT, each from 1 to 8192", text);
+}
+
+static Camera parse_camera(const std::string& text, Camera camera)
+{
+    const double degree = std::numbers::pi / 180.0;
+    const struct
+    {
+        const char* name;
+        double yaw, pitch;
+    } views[] = {{"front", 0, 0}, {"left", 90, 0}, {"right", -90, 0}, {"back", 180, 0}, {"top", 0, 80}};
+    for (const auto& view : views)
+        if (text == view.name)
+        {
+            camera.yaw = view.yaw * degree;
+            camera.pitch = view.pitch * degree;
+            return camera;
+        }
+    double yaw = 0, pitch = 0, distance = camera.distance;
+    char end = 0;
+    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &yaw, &pitch, &distance, &end);
+    if ((found != 2 && found != 3) || !(std::abs(yaw) <= 360) || !(std::abs(pitch) <= 89) ||
+        !(distance >= 0.02 && distance <= 100))
+        throw fail("--camera {}: expected front, left, right, back, top, or yaw,pitch[,distance] in degrees and metres",
+                   text);
+    camera.yaw = yaw * degree;
+    camera.pitch = pitch * degree;
+    camera.distance = distance;
+    return camera;
+}
+
+Image take_shot(const Options& options, const ShotOptions& shot)
+{
+    if (!(options.seconds >= 0.0 && options.seconds <= 3600.0))
+        throw fail("--time {}: expected seconds from 0 to 3600", options.seconds);
+    if (shot.samples < 1 || shot.samples > 1024)
+        throw fail("--samples {}: expected 1 to 1024", shot.samples);
+    const Hairstyle style = load_style(options);
+    Camera camera = camera_of(style.params);
+    if (!shot.camera.empty())
+        camera = parse_camera(shot.camera, camera);
+    const Motion motion = find_motion(options.motion);
+    const Device device = open_device(options);
+    Simulation simulation(device, style);
+    simulation.play(motion);
+    const long steps = std::lround(options.seconds / simulation.step_seconds());
+    for (long i = 0; i < steps; ++i)
+    {
+        simulation.step(simulation.hand());
+        if (i % 16 == 0)
+            simulation.solver().take_times(); // lets the queue's uploads go
+    }
+    simulation.solver().draw();
+
+    const Window window(16, 16, Window::HIDDEN);
+    Renderer renderer(data_folder() / "shaders");
+    camera.target += simulation.jumped();
+    FrameInput frame = frame_input(simulation, camera);
+    frame.samples = shot.samples;
+    frame.transparent = shot.transparent;
+    return renderer.picture(frame, shot.width, shot.height);
+}
+
+} // namespace coif

@@ -1,0 +1,45 @@
+// One axis of the 27-voxel box blur (thesis 5.1.3): three runs, along x, y and z, equal the cube. In fixed point, so
+// that the result does not hang on the order of anything.
+//
+// AXIS is 0, 1 or 2; CHUNK voxels along x make a work-item.
+#include "shared.h"
+
+#if CHUNK == 16
+typedef int16 chunk;
+#define LOAD(p) vload16(0, p)
+#define STORE(v, p) vstore16(v, 0, p)
+#elif CHUNK == 8
+typedef int8 chunk;
+#define LOAD(p) vload8(0, p)
+#define STORE(v, p) vstore8(v, 0, p)
+#else
+typedef int chunk;
+#define LOAD(p) (*(p))
+#define STORE(v, p) (*(p) = (v))
+#endif
+
+// A third of a sum of voxels, rounded; exact for what is not negative.
+static inline chunk third(chunk sum) { return mul_hi(sum + 1, (chunk)(0x55555556)); }
+
+kernel void blur_density(global const int* density, global int* blurred)
+{
+    const int i = get_global_id(0) * CHUNK;
+    const int x = i % RESOLUTION, y = i / RESOLUTION % RESOLUTION, z = i / RESOLUTION / RESOLUTION;
+#if AXIS == 0
+    // Neighbours along x may lie outside the chunk, and outside the row at its ends.
+    int row[CHUNK + 2];
+    STORE(LOAD(density + i), row + 1);
+    row[0] = x > 0 ? density[i - 1] : 0;
+    row[CHUNK + 1] = x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0;
+    const chunk sum = LOAD(row) + LOAD(row + 1) + LOAD(row + 2);
+#else
+    const int along = AXIS == 1 ? y : z;
+    const int stride = AXIS == 1 ? RESOLUTION : RESOLUTION * RESOLUTION;
+    chunk sum = LOAD(density + i);
+    if (along > 0)
+        sum += LOAD(density + i - stride);
+    if (along + 1 < RESOLUTION)
+        sum += LOAD(density + i + stride);
+#endif
+    STORE(third(sum), blurred + i);
+}

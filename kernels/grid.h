@@ -1,0 +1,71 @@
+// The density grid: a cube of resolution^3 voxels about the head, along the world's axes (thesis 5.1.3). Values sit at
+// the voxels' centres and are read and written trilinearly; the nearest voxel alone would make forces jump by half as
+// the grid moves under the hair. Outside the grid there is no hair.
+#ifndef COIF_GRID_H
+#define COIF_GRID_H
+#include "shared.h"
+
+// The voxel below a point, and how far the point is on its way to the next one along each axis.
+typedef struct GridPoint
+{
+    int voxel; // -1 outside
+    float fx, fy, fz;
+} GridPoint;
+
+static inline GridPoint grid_point(float x, float y, float z, constant StepInfo* info)
+{
+    const float inverse = 1.0f / info->grid_corner.w;
+    const float gx = (x - info->grid_corner.x) * inverse - 0.5f;
+    const float gy = (y - info->grid_corner.y) * inverse - 0.5f;
+    const float gz = (z - info->grid_corner.z) * inverse - 0.5f;
+    const float last = (float)(RESOLUTION - 1);
+    GridPoint point = {-1, 0.0f, 0.0f, 0.0f};
+    // Written so that a NaN counts as outside.
+    if (!(gx >= 0.0f && gy >= 0.0f && gz >= 0.0f && gx < last && gy < last && gz < last))
+        return point;
+    const int ix = (int)gx, iy = (int)gy, iz = (int)gz;
+    point.voxel = ix + RESOLUTION * (iy + RESOLUTION * iz);
+    point.fx = gx - (float)ix;
+    point.fy = gy - (float)iy;
+    point.fz = gz - (float)iz;
+    return point;
+}
+
+static inline float corner_weight(GridPoint p, int corner)
+{
+    return (corner & 1 ? p.fx : 1.0f - p.fx) * (corner & 2 ? p.fy : 1.0f - p.fy) * (corner & 4 ? p.fz : 1.0f - p.fz);
+}
+
+static inline int corner_voxel(GridPoint p, int corner)
+{
+    return p.voxel + (corner & 1 ? 1 : 0) + (corner & 2 ? RESOLUTION : 0) +
+           (corner & 4 ? RESOLUTION * RESOLUTION : 0);
+}
+
+static inline void add_density(global int* density, float x, float y, float z, constant StepInfo* info)
+{
+    const GridPoint p = grid_point(x, y, z, info);
+    if (p.voxel < 0)
+        return;
+    for (int corner = 0; corner < 8; ++corner)
+        atomic_add(&density[corner_voxel(p, corner)], convert_int_rte(corner_weight(p, corner) * DENSITY_ONE));
+}
+
+// Trilinear value of one component of the gradient, which lies component after component.
+static inline float3 fetch_gradient(global const float* gradient, float x, float y, float z, constant StepInfo* info)
+{
+    const GridPoint p = grid_point(x, y, z, info);
+    float3 sum = (float3)(0.0f);
+    if (p.voxel < 0)
+        return sum;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const int voxel = corner_voxel(p, corner);
+        const int plane = RESOLUTION * RESOLUTION * RESOLUTION;
+        sum += corner_weight(p, corner) *
+               (float3)(gradient[voxel], gradient[voxel + plane], gradient[voxel + 2 * plane]);
+    }
+    return sum;
+}
+
+#endif

@@ -1,0 +1,44 @@
+// The lane type: a strand is a lane of a vector on CPUs (WIDTH 8 or 16) and a work-item on GPUs (WIDTH 1), and one
+// source serves both.
+//
+// select() tests the top bit for vectors and non-zero for scalars, so it is fed comparisons only.
+#ifndef COIF_LANES_H
+#define COIF_LANES_H
+#include "shared.h"
+
+#if WIDTH == 16
+typedef float16 real;
+typedef int16 whole;
+typedef uint16 bits;
+#define LANES_LOAD(p) vload16(0, p)
+#define LANES_STORE(v, p) vstore16(v, 0, p)
+#define TO_WHOLE(v) convert_int16(v)
+#define TO_REAL(v) convert_float16(v)
+#define AS_BITS(v) as_uint16(v)
+#define ANY(v) any(v)
+#elif WIDTH == 8
+typedef float8 real;
+typedef int8 whole;
+typedef uint8 bits;
+#define LANES_LOAD(p) vload8(0, p)
+#define LANES_STORE(v, p) vstore8(v, 0, p)
+#define TO_WHOLE(v) convert_int8(v)
+#define TO_REAL(v) convert_float8(v)
+#define AS_BITS(v) as_uint8(v)
+#define ANY(v) any(v)
+#else
+typedef float real;
+typedef int whole;
+typedef uint bits;
+#define LANES_LOAD(p) (*(p))
+#define LANES_STORE(v, p) (*(p) = (v))
+#define TO_WHOLE(v) convert_int(v)
+#define TO_REAL(v) convert_float(v)
+#define AS_BITS(v) as_uint(v)
+#define ANY(v) (v)
+#endif
+
+// On CPUs 1 / sqrt(x) is faster than rsqrt(x) and rounds the same everywhere.
+#define INVERSE_SQRT(x) (1.0f / sqrt(x))
+
+#endif

@@ -1,0 +1,99 @@
+// The contract between host and device: read by C++ and by every kernel, depending on neither.
+//
+// Only float, int and float4 cross the border: they have the same size and alignment in C++, in OpenCL C and in a std140
+// block, so one struct serves all three without packing. tests/test_layout.cpp asks all three compilers.
+#ifndef COIF_SHARED_H
+#define COIF_SHARED_H
+
+#define COIF_TYPE_FLOAT float
+#define COIF_TYPE_INT int
+#define COIF_TYPE_CHOICE int
+#define COIF_TYPE_VECTOR float4
+#define COIF_TYPE_COLOR float4
+#define COIF_HOST(group, kind, name, value, scope, effect, help)
+
+#ifdef __cplusplus
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
+    COIF_TYPE_##kind group##_##name = value;
+namespace coif
+{
+struct alignas(16) float4
+{
+    float x, y, z, w;
+    bool operator==(const float4&) const = default;
+};
+constexpr float4 F4(float x, float y, float z, float w) { return {x, y, z, w}; }
+#else
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help) COIF_TYPE_##kind group##_##name;
+#endif
+
+// What the artist authored; on the device with angles in radians, colours linear and directions of unit length.
+typedef struct HairParams
+{
+#include "params.def"
+} HairParams;
+#undef COIF_PARAM
+#undef COIF_HOST
+
+// What one substep needs besides, filled by make_step_info() in sim/solver.cpp and nowhere else. Positions are relative
+// to the head's origin along the world's axes (m), velocities the world's (m/s).
+typedef struct StepInfo
+{
+    float4 head_row0; // rotation of the head at the end of the substep, row by row: world = row . local
+    float4 head_row1;
+    float4 head_row2;
+    float4 turn_row0; // rotation of the head in a teleport, new pose against old; identity otherwise
+    float4 turn_row1;
+    float4 turn_row2;
+    float4 origin_move;   // of the head's origin during the substep, m
+    float4 head_velocity; // of the head's origin before the substep, m/s
+    float4 head_center;   // centre of the scalp's sphere in the head's frame, m
+    float4 wind;          // m/s^2; w: its length
+    float4 gust_origin;   // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against the wind
+    float4 grid_corner;   // lowest corner of the grid, m; w: side of a voxel, m
+    float4 sweep;         // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
+                          // per fixed-point unit of density (1/m)
+    float substep;        // duration, s
+    float drag_keep;      // exp(-drag h)
+    float drag_gain;      // integral of exp(-drag t) over the substep, s
+    float gravity;        // m/s^2, along y
+    float stretch;        // of a sweep, eq. 5.5
+    float relax;          // over-relaxation factor of all sweeps but the last
+    float bend;           // of a sweep, eq. 5.5, before attenuation
+    float clearance;      // that drawn strands keep from colliders, m
+    float repulsion;      // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
+    int guides;           // simulated strands, without those that fill the last block
+    int drawn_multi;      // drawn strands mixed of three guides; they come first
+    int drawn;            // all drawn strands
+    int colliders;
+    int teleport;     // the head has just jumped: strands are carried along rigidly
+    int last_substep; // of its step: then the nodes are added to the density
+    int sweep_axis; // 0, 1, 2: main axis of the light's sweep
+    int sweep_from; // first slice of the sweep
+    int sweep_sign; // -1 or +1: from slice to slice
+} StepInfo;
+
+// One node adds this much to the density, shared out over eight voxels: fixed point, so that the order of the additions
+// does not matter and equal input gives equal bytes.
+#define DENSITY_ONE 4096
+
+// Guides lie in blocks of 16, lane by lane, so that one vector or one work-group moves 16 strands at once.
+#define LANES 16
+static inline int strand_value(int strand, int node, int axis, int nodes)
+{
+    return ((strand / LANES * nodes + node) * 3 + axis) * LANES + strand % LANES;
+}
+
+// How one drawn strand is made of guides; kept apart from HairParams because it differs from strand to strand.
+typedef struct DrawnStrand
+{
+    float4 root;    // on the scalp, in the head's frame, m; w: share of the guides' length at which it is cut
+    float4 weights; // of the three guides; w unused. For a copy: the two angles (rad) that turn it
+    int guide0, guide1, guide2;
+    int seed; // of everything random about this strand
+} DrawnStrand;
+
+#ifdef __cplusplus
+} // namespace coif
+#endif
+#endif

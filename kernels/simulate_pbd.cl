@@ -1,0 +1,191 @@
+// One substep of the guides: roots follow the head, forces, prediction, constraints, velocities (thesis 5.1.2, listing
+// A.1, with velocities kept instead of previous positions: position Verlet loses gravity in float at small steps).
+//
+//   v  <- v e^(-b h) + a (1 - e^(-b h)) / b          drag exactly, any b h
+//   x* <- x + h v,  constraints on x*,  v <- (x* - x) / h
+//
+// Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION and DENSITY are build options.
+#include "contact.h"
+#include "grid.h"
+#include "lanes.h"
+#include "pbd.h"
+#include "turbulence.h"
+
+static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
+{
+    const real a = *x, b = *y, c = *z;
+    *x = info->turn_row0.x * a + info->turn_row0.y * b + info->turn_row0.z * c;
+    *y = info->turn_row1.x * a + info->turn_row1.y * b + info->turn_row1.z * c;
+    *z = info->turn_row2.x * a + info->turn_row2.y * b + info->turn_row2.z * c;
+}
+
+// Wind across the strand, eq. 5.2 (Oshita 2004): |w x t| / |w| w, t the strand's unit tangent.
+static inline void add_wind(real* ax, real* ay, real* az, real x, real y, real z, real tx, real ty, real tz,
+                            constant StepInfo* info)
+{
+    const real gx = x * (1.0f / 0.15f) + info->gust_origin.x;
+    const real gy = y * (1.0f / 0.15f) + info->gust_origin.y;
+    const real gz = z * (1.0f / 0.15f) + info->gust_origin.z;
+    const float gust_size = info->wind.w * info->gust_origin.w;
+    const real wx = info->wind.x + gust_size * gust(gx, gy, gz, 0);
+    const real wy = info->wind.y + gust_size * gust(gx, gy, gz, 1);
+    const real wz = info->wind.z + gust_size * gust(gx, gy, gz, 2);
+    const real cx = wy * tz - wz * ty, cy = wz * tx - wx * tz, cz = wx * ty - wy * tx;
+    const real across = cx * cx + cy * cy + cz * cz;
+    const real all = fmax((wx * wx + wy * wy + wz * wz) * (tx * tx + ty * ty + tz * tz), (real)(1e-24f));
+    const real share = sqrt(across / all); // sine of the angle between wind and strand
+    *ax += share * wx;
+    *ay += share * wy;
+    *az += share * wz;
+}
+
+static inline void add_repulsion(real* ax, real* ay, real* az, real x, real y, real z, global const float* gradient,
+                                 constant StepInfo* info)
+{
+    float px[WIDTH], py[WIDTH], pz[WIDTH], fx[WIDTH], fy[WIDTH], fz[WIDTH];
+    LANES_STORE(x, px);
+    LANES_STORE(y, py);
+    LANES_STORE(z, pz);
+    for (int lane = 0; lane < WIDTH; ++lane)
+    {
+        float3 push = -info->repulsion * fetch_gradient(gradient, px[lane], py[lane], pz[lane], info);
+        // A few strands in one voxel of a fine grid must not explode: at most 50 m/s^2.
+        push *= fmin(1.0f, 50.0f / fmax(length(push), 1e-6f));
+        fx[lane] = push.x;
+        fy[lane] = push.y;
+        fz[lane] = push.z;
+    }
+    *ax += LANES_LOAD(fx);
+    *ay += LANES_LOAD(fy);
+    *az += LANES_LOAD(fz);
+}
+
+kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
+                         global const float* root_direction, global const float* segment_length,
+                         global const float* gradient, global int* density, global int* resets,
+                         constant float4* colliders, constant HairParams* params, constant StepInfo* info)
+{
+    const int strand = get_global_id(0) * WIDTH; // of the first lane
+    const int first = strand_value(strand, 0, 0, NODES);
+    const int root = strand_value(strand, 0, 0, 1);
+    const real rest = LANES_LOAD(segment_length + strand) * params->strand_spacing;
+    const float h = info->substep;
+
+    // Where the strand was, carried along rigidly if the head has just jumped.
+    real ox[NODES], oy[NODES], oz[NODES];
+    for (int i = 0; i < NODES; ++i)
+    {
+        ox[i] = LANES_LOAD(position + first + i * 3 * LANES);
+        oy[i] = LANES_LOAD(position + first + (i * 3 + 1) * LANES);
+        oz[i] = LANES_LOAD(position + first + (i * 3 + 2) * LANES);
+        turn(&ox[i], &oy[i], &oz[i], info);
+    }
+
+    // Nodes 0 and 1: the segment under the scalp.
+    real x[NODES], y[NODES], z[NODES];
+    const real rx = LANES_LOAD(root_position + root), dx = LANES_LOAD(root_direction + root);
+    const real ry = LANES_LOAD(root_position + root + LANES), dy = LANES_LOAD(root_direction + root + LANES);
+    const real rz = LANES_LOAD(root_position + root + 2 * LANES), dz = LANES_LOAD(root_direction + root + 2 * LANES);
+    const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;
+    const real wx = r0.x * dx + r0.y * dy + r0.z * dz;
+    const real wy = r1.x * dx + r1.y * dy + r1.z * dz;
+    const real wz = r2.x * dx + r2.y * dy + r2.z * dz;
+    x[1] = r0.x * rx + r0.y * ry + r0.z * rz;
+    y[1] = r1.x * rx + r1.y * ry + r1.z * rz;
+    z[1] = r2.x * rx + r2.y * ry + r2.z * rz;
+    x[0] = x[1] - rest * wx;
+    y[0] = y[1] - rest * wy;
+    z[0] = z[1] - rest * wz;
+
+    for (int i = 2; i < NODES; ++i)
+    {
+        real vx = LANES_LOAD(velocity + first + i * 3 * LANES) - info->head_velocity.x;
+        real vy = LANES_LOAD(velocity + first + (i * 3 + 1) * LANES) - info->head_velocity.y;
+        real vz = LANES_LOAD(velocity + first + (i * 3 + 2) * LANES) - info->head_velocity.z;
+        turn(&vx, &vy, &vz, info);
+        real ax = (real)(0.0f), ay = (real)(info->gravity), az = (real)(0.0f);
+#ifdef WIND
+        const int next = min(i + 1, NODES - 1);
+        add_wind(&ax, &ay, &az, ox[i], oy[i], oz[i], ox[next] - ox[i - 1], oy[next] - oy[i - 1], oz[next] - oz[i - 1],
+                 info);
+#endif
+#ifdef REPULSION
+        add_repulsion(&ax, &ay, &az, ox[i], oy[i], oz[i], gradient, info);
+#endif
+        vx = (vx + info->head_velocity.x) * info->drag_keep + ax * info->drag_gain;
+        vy = (vy + info->head_velocity.y) * info->drag_keep + ay * info->drag_gain;
+        vz = (vz + info->head_velocity.z) * info->drag_keep + az * info->drag_gain;
+        x[i] = ox[i] + h * vx - info->origin_move.x;
+        y[i] = oy[i] + h * vy - info->origin_move.y;
+        z[i] = oz[i] + h * vz - info->origin_move.z;
+    }
+
+    float bend[NODES];
+    for (int i = 2; i < NODES; ++i)
+        bend[i] = clamp(info->bend / powr((float)(i - 1), params->solver_bending_attenuation), 0.0f, 1.0f);
+
+    for (int sweep = 0; sweep < params->solver_iterations; ++sweep)
+    {
+        // Over-relaxed but for the last sweep, which leaves no overshoot (accuracy of successive over-relaxation on a
+        // chain: Young 1950; the factor is make_step_info's).
+        const float strength = sweep + 1 < params->solver_iterations ? info->stretch * info->relax : info->stretch;
+        for (int c = 0; c < info->colliders; ++c)
+            for (int i = 2; i < NODES; ++i)
+                push_out(&x[i], &y[i], &z[i], colliders[c]);
+        keep_lengths(x, y, z, rest, strength, 2);
+        keep_lengths(x, y, z, rest, strength, 1);
+        if (info->bend > 0.0f)
+            straighten(x, y, z, rest, params->solver_bending_scale, bend);
+    }
+    for (int c = 0; c < info->colliders; ++c)
+        for (int i = 2; i < NODES; ++i)
+            push_out(&x[i], &y[i], &z[i], colliders[c]);
+
+    // A strand that is no longer finite starts again from its rest shape; its neighbours do not notice.
+    whole bad = (whole)(0);
+    for (int i = 2; i < NODES; ++i)
+        bad |= !(fabs(x[i]) + fabs(y[i]) + fabs(z[i]) < 1e6f);
+    for (int i = 2; i < NODES; ++i)
+    {
+        x[i] = select(x[i], x[1] + rest * (float)(i - 1) * wx, bad != 0);
+        y[i] = select(y[i], y[1] + rest * (float)(i - 1) * wy, bad != 0);
+        z[i] = select(z[i], z[1] + rest * (float)(i - 1) * wz, bad != 0);
+    }
+
+    const float per_second = 1.0f / h;
+    for (int i = 0; i < NODES; ++i)
+    {
+        LANES_STORE(x[i], position + first + i * 3 * LANES);
+        LANES_STORE(y[i], position + first + (i * 3 + 1) * LANES);
+        LANES_STORE(z[i], position + first + (i * 3 + 2) * LANES);
+        const real moved_x = x[i] - ox[i] + info->origin_move.x;
+        const real moved_y = y[i] - oy[i] + info->origin_move.y;
+        const real moved_z = z[i] - oz[i] + info->origin_move.z;
+        LANES_STORE(select(moved_x * per_second, (real)(info->head_velocity.x), bad != 0),
+                    velocity + first + i * 3 * LANES);
+        LANES_STORE(select(moved_y * per_second, (real)(info->head_velocity.y), bad != 0),
+                    velocity + first + (i * 3 + 1) * LANES);
+        LANES_STORE(select(moved_z * per_second, (real)(info->head_velocity.z), bad != 0),
+                    velocity + first + (i * 3 + 2) * LANES);
+    }
+
+    int bad_lanes[WIDTH];
+    LANES_STORE(bad, bad_lanes);
+    for (int lane = 0; lane < WIDTH; ++lane)
+        if (bad_lanes[lane] && strand + lane < info->guides)
+            atomic_inc(&resets[strand + lane]);
+
+#ifdef DENSITY
+    if (info->last_substep)
+        for (int i = 1; i < NODES; ++i)
+        {
+            float px[WIDTH], py[WIDTH], pz[WIDTH];
+            LANES_STORE(x[i], px);
+            LANES_STORE(y[i], py);
+            LANES_STORE(z[i], pz);
+            for (int lane = 0; lane < WIDTH; ++lane)
+                if (strand + lane < info->guides)
+                    add_density(density, px[lane], py[lane], pz[lane], info);
+        }
+#endif
+}

@@ -1,0 +1,64 @@
+// The curve that is drawn through a strand's nodes: smoothing, waves, and what differs from strand to strand. Read by
+// OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those names), so that the two never
+// hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more. No local is const, which in GLSL
+// 1.50 asks for a constant expression.
+#ifndef COIF_STRAND_CURVE_H
+#define COIF_STRAND_CURVE_H
+
+#define CURVE_LINEAR 0
+#define CURVE_COSINE 1
+#define CURVE_CUBIC 2
+#define CURVE_CATMULL_ROM 3
+
+// Weights of four neighbouring nodes at t in [0, 1] between the two in the middle (thesis 5.2.1, listings 5.5 and 5.6;
+// cosine and cubic after Bourke, Interpolation methods, 1999).
+CURVE_FUNCTION float4 curve_weights(int curve, float t)
+{
+    if (curve == CURVE_LINEAR)
+        return FLOAT4(0.0f, 1.0f - t, t, 0.0f);
+    if (curve == CURVE_COSINE)
+    {
+        float s = 0.5f - 0.5f * cos(3.14159265f * t);
+        return FLOAT4(0.0f, 1.0f - s, s, 0.0f);
+    }
+    float t2 = t * t, t3 = t2 * t;
+    if (curve == CURVE_CUBIC)
+        return FLOAT4(-t3 + 2.0f * t2 - t, t3 - 2.0f * t2 + 1.0f, -t3 + t2 + t, t3 - t2);
+    return FLOAT4(-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
+                  0.5f * t3 - 0.5f * t2);
+}
+
+// The waves' table (a 1-D texture for GLSL) holds this many waves, each a little different; see sim/wave.cpp.
+#define WAVE_PERIODS 32
+
+// How far waves have set in at `along` (0 at the root, 1 at the tip), beginning at `begin`: smooth, full after a
+// quarter of the strand.
+CURVE_FUNCTION float wave_onset(float along, float begin)
+{
+    float t = clamp((along - begin) * 4.0f, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// A number in [0, 1) that depends on nothing but the strand and what it is for. PCG output, O'Neill 2014.
+CURVE_FUNCTION float strand_random(int seed, int purpose)
+{
+    UINT state = TO_UINT(seed) * 747796405u + TO_UINT(purpose) * 2891336453u + 277803737u;
+    UINT word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return TO_FLOAT(((word >> 22u) ^ word) >> 8u) * (1.0f / 16777216.0f);
+}
+
+#define RANDOM_BRIGHTNESS 1
+#define RANDOM_WAVE_SHIFT 2
+#define RANDOM_WAVE_PLACE 3
+#define RANDOM_LAYER 4
+
+// Where in the table, in whole tables, a strand's wave is at `distance` (m) from the root. With no randomness all
+// strands wave in step; the more, the further apart their phases and the places of the table that they use.
+CURVE_FUNCTION float wave_place(int seed, float distance, float frequency, float randomness)
+{
+    float shift = randomness * strand_random(seed, RANDOM_WAVE_SHIFT);
+    float place = randomness > 0.0f ? floor(strand_random(seed, RANDOM_WAVE_PLACE) * 32.0f) : 0.0f;
+    return (distance * frequency + shift + place) * (1.0f / 32.0f);
+}
+
+#endif

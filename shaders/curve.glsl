@@ -1,0 +1,8 @@
+// Gives kernels/strand_curve.h the names that it expects.
+#define CURVE_FUNCTION
+#define float4 vec4
+#define FLOAT4(x, y, z, w) vec4(x, y, z, w)
+#define UINT uint
+#define TO_UINT(v) uint(v)
+#define TO_FLOAT(v) float(v)
+#include "strand_curve.h"

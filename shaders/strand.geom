@@ -1,0 +1,122 @@
+#version 150
+// Draws the piece of a strand between two nodes as a ribbon that faces the camera (thesis 5.2.1 and 5.2.2).
+//
+//   in   lines_adjacency   four neighbouring nodes; the piece runs between the middle two
+//   out  triangle_strip    two vertices for each end of a subdivision
+//
+// The curve is smoothed as smoothing.curve says, waves are laid on along the strand's frame, and it is cut into as many
+// pieces as its bend on screen asks for, up to smoothing.subdivisions. A ribbon is never thinner than a pixel: below that
+// its coverage shrinks instead, and half a pixel on either side lets the edges fade.
+layout(lines_adjacency) in;
+layout(triangle_strip, max_vertices = 62) out;
+
+#include "params"
+#include "frame.glsl"
+#include "curve.glsl"
+
+uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
+
+in NodeData {
+    vec4 normal;
+    float light;
+    float along;
+    int strand;
+} node[4];
+
+// 14 components and gl_Position's four, times 62 vertices: close to the 1024 that a shader may send on.
+out RibbonData {
+    vec3 tangent;
+    vec3 to_camera;
+    vec3 color;
+    float light;
+    vec3 across; // position across the ribbon and half its drawn width, both in pixels; opacity
+} ribbon;
+
+const float kBendTolerance = 0.2; // pixels that a piece may stray from the curve
+
+vec3 curve_at(float t)
+{
+    vec4 w = curve_weights(params.smoothing_curve, t);
+    return w.x * gl_in[0].gl_Position.xyz + w.y * gl_in[1].gl_Position.xyz + w.z * gl_in[2].gl_Position.xyz +
+           w.w * gl_in[3].gl_Position.xyz;
+}
+
+vec3 wave_at(float t, int seed)
+{
+    float along = mix(node[1].along, node[2].along, t);
+    float distance_from_root = mix(node[1].normal.w, node[2].normal.w, t);
+    vec3 tangent = normalize(gl_in[2].gl_Position.xyz - gl_in[1].gl_Position.xyz);
+    vec3 normal = mix(node[1].normal.xyz, node[2].normal.xyz, t);
+    normal = normalize(normal - tangent * dot(normal, tangent));
+    float first = texture(wave, wave_place(seed, distance_from_root, params.wave_normal_frequency,
+                                           params.wave_normal_randomness)).r;
+    float second = texture(wave, wave_place(seed, distance_from_root, params.wave_binormal_frequency,
+                                            params.wave_binormal_randomness)).g;
+    return normal * (first * params.wave_normal_amplitude * wave_onset(along, params.wave_normal_begin)) +
+           cross(tangent, normal) *
+               (second * params.wave_binormal_amplitude * wave_onset(along, params.wave_binormal_begin));
+}
+
+int pieces(float pixel)
+{
+    vec3 bend1 = gl_in[0].gl_Position.xyz - 2.0 * gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz;
+    vec3 bend2 = gl_in[1].gl_Position.xyz - 2.0 * gl_in[2].gl_Position.xyz + gl_in[3].gl_Position.xyz;
+    // A chord strays from an arc by an eighth of the second difference, and with the square of the piece's length.
+    float stray = params.smoothing_curve == CURVE_LINEAR ? 0.0 : 0.125 * max(length(bend1), length(bend2)) / pixel;
+    float segment = node[2].normal.w - node[1].normal.w;
+    float waves_n = segment * params.wave_normal_frequency, waves_b = segment * params.wave_binormal_frequency;
+    // A sine of height a and length l strays by a (pi / n)^2 / 2 when a wave is cut in n.
+    stray += 4.93 * (params.wave_normal_amplitude * waves_n * waves_n +
+                     params.wave_binormal_amplitude * waves_b * waves_b) / pixel;
+    return clamp(int(ceil(sqrt(stray / kBendTolerance))), 1, params.smoothing_subdivisions);
+}
+
+void main()
+{
+    vec3 start = gl_in[1].gl_Position.xyz, end = gl_in[2].gl_Position.xyz;
+    if (!(distance(start, end) > 1e-7))
+        return;
+    float pixel = frame.camera_position.w * distance(frame.camera_position.xyz, 0.5 * (start + end));
+    int count = pieces(pixel);
+    bool waves = params.wave_normal_amplitude > 0.0 || params.wave_binormal_amplitude > 0.0;
+    int seed = node[1].strand + 7919 * params.interpolation_seed;
+    float brightness = exp(params.look_variation * 2.0 * (strand_random(seed, RANDOM_BRIGHTNESS) - 0.5));
+
+    float piece = 1.0 / float(count);
+    vec3 before = curve_at(-piece), here = curve_at(0.0);
+    if (waves)
+    {
+        before += wave_at(-piece, seed);
+        here += wave_at(0.0, seed);
+    }
+    for (int i = 0; i <= count; ++i)
+    {
+        float t = float(i) * piece;
+        vec3 after = curve_at(t + piece);
+        if (waves)
+            after += wave_at(t + piece, seed);
+        float along = mix(node[1].along, node[2].along, t);
+
+        vec3 tangent = normalize(after - before + vec3(0.0, 1e-12, 0.0));
+        vec3 to_camera = frame.camera_position.xyz - here;
+        float size = frame.camera_position.w * length(to_camera); // of a pixel, here
+        vec3 side = cross(tangent, to_camera);
+        side *= inversesqrt(max(dot(side, side), 1e-20));
+        float width = params.look_width * (1.0 - params.look_taper * along * along) / size;
+        float half_drawn = 0.5 * max(width, 1.0) + 0.5;
+
+        ribbon.tangent = tangent;
+        ribbon.to_camera = to_camera;
+        ribbon.color = mix(params.look_root_color.rgb, params.look_tip_color.rgb, along) * brightness;
+        ribbon.light = mix(node[1].light, node[2].light, t);
+        for (float s = -1.0; s <= 1.0; s += 2.0)
+        {
+            ribbon.across = vec3(s * half_drawn, half_drawn, params.look_opacity * min(width, 1.0));
+            gl_Position = frame.view_projection * vec4(here + side * (s * half_drawn * size), 1.0);
+            EmitVertex();
+        }
+        before = here;
+        here = after;
+    }
+    EndPrimitive();
+}

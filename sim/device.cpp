@@ -1,0 +1,172 @@
+#include "sim/device.h"
+
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <cstdlib>
+
+namespace coif
+{
+
+static bool matches(const cl::Device& device, const std::string& wish)
+{
+    const bool gpu = device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU;
+    return wish.empty() || wish == (gpu ? "gpu" : "cpu") ||
+           device.getInfo<CL_DEVICE_NAME>().find(wish) != std::string::npos;
+}
+
+static cl::Device pick_device(const std::string& wish)
+{
+    std::vector<cl::Platform> platforms;
+    try
+    {
+        cl::Platform::get(&platforms);
+    }
+    catch (const cl::Error&)
+    {
+        // The loader reports an error when no platform is installed; told below.
+    }
+    std::vector<cl::Device> fitting;
+    std::string names;
+    for (const cl::Platform& platform : platforms)
+    {
+        std::vector<cl::Device> devices;
+        try
+        {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+        }
+        catch (const cl::Error&)
+        {
+            continue; // a platform without a device
+        }
+        for (const cl::Device& device : devices)
+        {
+            names += (names.empty() ? "" : ", ") + device.getInfo<CL_DEVICE_NAME>();
+            if (device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>() && matches(device, wish))
+                fitting.push_back(device);
+        }
+    }
+    if (names.empty())
+        throw fail("no OpenCL device is installed; on Debian: apt-get install pocl-opencl-icd");
+    if (fitting.empty())
+        throw fail("no OpenCL device matches '{}'; there are: {}", wish, names);
+    for (const cl::Device& device : fitting)
+        if (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU)
+            return device;
+    return fitting.front();
+}
+
+Device open_device(const std::string& wish, const std::filesystem::path& kernel_folder)
+try
+{
+    Device result;
+    result.device = pick_device(wish);
+    result.context = cl::Context(result.device);
+    result.queue = cl::CommandQueue(result.context, result.device, CL_QUEUE_PROFILING_ENABLE);
+    result.kernel_folder = kernel_folder;
+    result.name = result.device.getInfo<CL_DEVICE_NAME>();
+    result.is_gpu = result.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU;
+    if (!result.is_gpu)
+        result.width = result.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
+    return result;
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {}", e.err(), e.what());
+}
+
+Kernel load_kernel(const Device& device, const std::string& file, const std::string& options)
+{
+    const std::filesystem::path path = device.kernel_folder / (file + ".cl");
+    cl::Program program(device.context, load_source(path));
+    try
+    {
+        // Denormals run 34 times slower on PoCL; -cl-fast-relaxed-math would fold away isfinite.
+        program.build(device.device, ("-cl-std=CL1.2 -cl-kernel-arg-info -cl-denorms-are-zero -cl-mad-enable "
+                                      "-cl-no-signed-zeros " +
+                                      options)
+                                         .c_str());
+    }
+    catch (const cl::Error&)
+    {
+        throw fail("{} does not compile:\n{}", path.string(),
+                   program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device));
+    }
+    Kernel kernel;
+    kernel.name = file;
+    try
+    {
+        kernel.handle = cl::Kernel(program, file.c_str());
+        const cl_uint count = kernel.handle.getInfo<CL_KERNEL_NUM_ARGS>();
+        for (cl_uint i = 0; i < count; ++i)
+        {
+            std::string argument = kernel.handle.getArgInfo<CL_KERNEL_ARG_NAME>(i);
+            kernel.arguments.push_back(argument.c_str()); // some drivers count the final zero
+        }
+    }
+    catch (const cl::Error& e)
+    {
+        throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(), file, e.err(),
+                   e.what());
+    }
+    return kernel;
+}
+
+cl::Event run(const Device& device, Kernel& kernel, const Buffers& buffers, cl::NDRange items, cl::NDRange group)
+try
+{
+    for (cl_uint i = 0; i < kernel.arguments.size(); ++i)
+    {
+        const auto found = buffers.find(kernel.arguments[i]);
+        if (found == buffers.end())
+            throw fail("kernel {} asks for '{}', which is no buffer of the solver", kernel.name, kernel.arguments[i]);
+        kernel.handle.setArg(i, found->second);
+    }
+    cl::Event event;
+    device.queue.enqueueNDRangeKernel(kernel.handle, cl::NullRange, items, group, nullptr, &event);
+    return event;
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} in kernel {}", e.err(), e.what(), kernel.name);
+}
+
+cl::Buffer allocate(const Device& device, size_t bytes, const std::string& purpose)
+try
+{
+    const cl_ulong limit = device.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    if (bytes > limit)
+        throw fail("{} takes {} MB, more than the {} MB that {} gives one buffer; draw fewer strands or nodes", purpose,
+                   bytes >> 20, limit >> 20, device.name);
+    // An empty buffer is no buffer for OpenCL; one that can be mapped costs no copy on devices in host memory.
+    return cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, std::max<size_t>(bytes, 16));
+}
+catch (const cl::Error& e)
+{
+    throw fail("{} takes {} MB, which {} cannot give (OpenCL error {}); draw fewer strands or nodes", purpose,
+               bytes >> 20, device.name, e.err());
+}
+
+Mapped::Mapped(const Device& device, const cl::Buffer& buffer, size_t bytes)
+    : queue_(device.queue), buffer_(buffer), bytes_(bytes)
+{
+    if (bytes_)
+        pointer_ = queue_.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, bytes_);
+}
+
+Mapped::~Mapped()
+{
+    if (pointer_)
+        queue_.enqueueUnmapMemObject(buffer_, pointer_);
+}
+
+Mapped& Mapped::operator=(Mapped&& other) noexcept
+{
+    std::swap(queue_, other.queue_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(pointer_, other.pointer_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+} // namespace coif

@@ -1,0 +1,238 @@
+#include "sim/groom.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace coif
+{
+
+// What a random number is for; each purpose draws from its own stream.
+enum Channel
+{
+    kLift,
+    kSweep,
+    kTriangle,
+    kWeightA,
+    kWeightB,
+    kCut,
+    kStrandSeed,
+    kTurn // and upwards: one pair of channels for each try
+};
+
+static uint32_t pcg(uint32_t state)
+{
+    const uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+float random01(int seed, int index, int channel)
+{
+    uint32_t state = pcg(uint32_t(seed) * 747796405u + 2891336453u);
+    state = pcg((state ^ uint32_t(index)) * 747796405u + 2891336453u);
+    state = pcg((state ^ uint32_t(channel)) * 747796405u + 2891336453u);
+    return float(state >> 8) * 0x1p-24f;
+}
+
+static float random_sign(int seed, int index, int channel) { return 2.0f * random01(seed, index, channel) - 1.0f; }
+
+static glm::vec3 unit(glm::vec3 v, glm::vec3 otherwise)
+{
+    const float length = glm::length(v);
+    return length > 1e-6f ? v / length : otherwise;
+}
+
+// The direction along the scalp, at a root with normal n, that leads away from the crown or its parting. The parting is
+// an arc about the head's side-to-side axis, from the crown towards the face.
+static glm::vec3 flow(glm::vec3 n, glm::vec3 crown, float part)
+{
+    const glm::vec3 side(1.0f, 0.0f, 0.0f);
+    const glm::vec3 pole = unit(crown, {0.0f, 1.0f, 0.0f});
+    const glm::vec3 axis = unit(side - pole * glm::dot(side, pole), {0.0f, 0.0f, 1.0f});
+    const glm::vec3 ahead = glm::cross(axis, pole); // where the arc leads from the crown
+    // The arc's point nearest to n, by its angle from the crown.
+    const float angle = std::clamp(std::atan2(glm::dot(n, ahead), glm::dot(n, pole)), 0.0f, part);
+    const glm::vec3 nearest = pole * std::cos(angle) + ahead * std::sin(angle);
+    const glm::vec3 away = n * glm::dot(n, nearest) - nearest;
+    const glm::vec3 back = -ahead - n * glm::dot(-ahead, n); // on the parting itself: backwards
+    return unit(away, unit(back, unit(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
+}
+
+static glm::vec3 root_direction(const HairParams& p, glm::vec3 n, int guide)
+{
+    const float degree = std::numbers::pi_v<float> / 180.0f;
+    const int seed = p.interpolation_seed;
+    const float lift = (p.root_lift + p.root_lift_variation * random_sign(seed, guide, kLift)) * degree;
+    const float sweep = (p.root_sweep + p.root_sweep_variation * random_sign(seed, guide, kSweep)) * degree;
+    const glm::vec3 crown(p.root_crown.x, p.root_crown.y, p.root_crown.z);
+    const glm::vec3 down = flow(n, crown, p.root_part * degree);
+    const glm::vec3 along = glm::angleAxis(sweep, n) * down;
+    return unit(n * std::cos(lift) + along * std::sin(lift), n);
+}
+
+// A mix across a parting would lie flat over it: guides that leave the head the other way than the nearest one get no
+// weight, and the drawn strand, which starts at its own root, follows the others.
+static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3])
+{
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k)
+        if (weights[k] > weights[nearest])
+            nearest = k;
+    for (int k = 0; k < 3; ++k)
+        if (glm::dot(directions[k], directions[nearest]) < 0.3f)
+            weights[k] = 0.0f;
+    return weights / (weights.x + weights.y + weights.z);
+}
+
+static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, const std::vector<glm::vec3>& directions,
+                       int count)
+{
+    std::vector<double> area_up_to;
+    double area = 0.0;
+    for (const glm::uvec3& t : scalp.triangles)
+    {
+        const glm::vec3 a = scalp.positions[t.x];
+        area += glm::length(glm::cross(scalp.positions[t.y] - a, scalp.positions[t.z] - a));
+        area_up_to.push_back(area);
+    }
+    for (int i = 0; i < count; ++i)
+    {
+        // Stratified over the area, so that triangles of equal size get equal numbers.
+        const double at = (i + double(random01(p.interpolation_seed, i, kTriangle))) / count * area;
+        const size_t found = size_t(std::upper_bound(area_up_to.begin(), area_up_to.end(), at) - area_up_to.begin());
+        const glm::uvec3 t = scalp.triangles[std::min(found, scalp.triangles.size() - 1)];
+        // Uniform over the triangle: points of the parallelogram's other half are folded back (thesis, listing 5.4).
+        float b = random01(p.interpolation_seed, i, kWeightA), c = random01(p.interpolation_seed, i, kWeightB);
+        if (b + c > 1.0f)
+        {
+            b = 1.0f - b;
+            c = 1.0f - c;
+        }
+        const glm::vec3 weights(1.0f - b - c, b, c);
+        const glm::vec3 root =
+            scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z;
+        const glm::vec3 of[3] = {directions[t.x], directions[t.y], directions[t.z]};
+        const glm::vec3 w = without_opposed(weights, of);
+        DrawnStrand strand = {};
+        strand.root = F4(root.x, root.y, root.z, 0.0f);
+        strand.weights = F4(w.x, w.y, w.z, 0.0f);
+        strand.guide0 = int(t.x);
+        strand.guide1 = int(t.y);
+        strand.guide2 = int(t.z);
+        groom.drawn.push_back(strand);
+    }
+}
+
+// Is the point of the scalp in this direction from its centre covered by a triangle?
+static bool on_scalp(const Scalp& scalp, const std::vector<std::vector<unsigned>>& triangles_of, unsigned guide,
+                     glm::vec3 point)
+{
+    for (const unsigned index : triangles_of[guide])
+    {
+        const glm::uvec3 t = scalp.triangles[index];
+        if (triangle_distance(point, scalp.positions[t.x], scalp.positions[t.y], scalp.positions[t.z]) <
+            0.02f * scalp.extent)
+            return true;
+    }
+    return false;
+}
+
+static glm::vec3 turned(glm::vec3 v, glm::vec3 center, float yaw, float pitch)
+{
+    const glm::quat turn = glm::angleAxis(yaw, glm::vec3(0, 1, 0)) * glm::angleAxis(pitch, glm::vec3(1, 0, 0));
+    return center + turn * (v - center);
+}
+
+static void grow_single(Groom& groom, const HairParams& p, const Scalp& scalp, int count)
+{
+    // The triangles about each vertex and about its neighbours: where a turned copy may stand.
+    std::vector<std::vector<unsigned>> own(scalp.positions.size()), near(scalp.positions.size());
+    for (unsigned i = 0; i < scalp.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            own[scalp.triangles[i][k]].push_back(i);
+    for (unsigned v = 0; v < own.size(); ++v)
+    {
+        for (const unsigned i : own[v])
+            for (int k = 0; k < 3; ++k)
+                near[v].insert(near[v].end(), own[scalp.triangles[i][k]].begin(), own[scalp.triangles[i][k]].end());
+        std::sort(near[v].begin(), near[v].end());
+        near[v].erase(std::unique(near[v].begin(), near[v].end()), near[v].end());
+    }
+    const float spread = p.interpolation_spread * std::numbers::pi_v<float> / 180.0f;
+    for (int i = 0; i < count; ++i)
+    {
+        const int index = groom.drawn_multi + i;
+        const int guide = i % groom.guides;
+        float yaw = 0.0f, pitch = 0.0f;
+        glm::vec3 root = scalp.positions[size_t(guide)];
+        // Copies that would leave the scalp are drawn again, ever closer; the last resort is the guide itself.
+        for (int attempt = 0; attempt < 8; ++attempt)
+        {
+            const float within = spread * (1.0f - float(attempt) / 8.0f);
+            yaw = within * random_sign(p.interpolation_seed, index, kTurn + 2 * attempt);
+            pitch = within * random_sign(p.interpolation_seed, index, kTurn + 2 * attempt + 1);
+            root = turned(scalp.positions[size_t(guide)], scalp.center, yaw, pitch);
+            if (own[size_t(guide)].empty() || on_scalp(scalp, near, unsigned(guide), root))
+                break;
+            yaw = pitch = 0.0f;
+            root = scalp.positions[size_t(guide)];
+        }
+        DrawnStrand strand = {};
+        strand.root = F4(root.x, root.y, root.z, 0.0f);
+        strand.weights = F4(yaw, pitch, 0.0f, 0.0f);
+        strand.guide0 = strand.guide1 = strand.guide2 = guide;
+        groom.drawn.push_back(strand);
+    }
+}
+
+Groom grow(const HairParams& p, const Scalp& scalp)
+{
+    Groom groom;
+    groom.nodes = p.strand_nodes;
+    groom.guides = int(scalp.positions.size());
+    groom.blocks = (groom.guides + LANES - 1) / LANES;
+    groom.longest = p.strand_length;
+    groom.center = scalp.center * p.head_scale;
+    groom.extent = scalp.extent * p.head_scale;
+
+    std::vector<glm::vec3> directions;
+    for (int g = 0; g < groom.guides; ++g)
+        directions.push_back(root_direction(p, scalp.normals[size_t(g)], g));
+
+    groom.root_position.resize(size_t(groom.blocks) * 3 * LANES);
+    groom.root_direction.resize(size_t(groom.blocks) * 3 * LANES);
+    groom.segment_length.resize(size_t(groom.blocks) * LANES);
+    for (int s = 0; s < groom.blocks * LANES; ++s)
+    {
+        const size_t g = size_t(s < groom.guides ? s : 0);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const size_t at = size_t(strand_value(s, 0, axis, 1));
+            groom.root_position[at] = scalp.positions[g][axis] * p.head_scale;
+            groom.root_direction[at] = directions[g][axis];
+        }
+        // All segments of a strand are equally long; the one under the scalp does not count towards its length.
+        groom.segment_length[size_t(s)] = p.strand_length / float(groom.nodes - 2);
+    }
+
+    const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
+    groom.drawn_multi = p.interpolation_strands - single;
+    groom.drawn.reserve(size_t(p.interpolation_strands));
+    grow_multi(groom, p, scalp, directions, groom.drawn_multi);
+    grow_single(groom, p, scalp, single);
+    for (size_t i = 0; i < groom.drawn.size(); ++i)
+    {
+        DrawnStrand& strand = groom.drawn[i];
+        for (float* c : {&strand.root.x, &strand.root.y, &strand.root.z})
+            *c *= p.head_scale;
+        strand.root.w = 1.0f - p.strand_length_variation * random01(p.interpolation_seed, int(i), kCut);
+        strand.seed = int(random01(p.interpolation_seed, int(i), kStrandSeed) * 0x1p24f);
+    }
+    return groom;
+}
+
+} // namespace coif

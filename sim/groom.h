@@ -1,0 +1,35 @@
+#pragma once
+#include "sim/mesh.h"
+#include "sim/params.h"
+
+#include <vector>
+
+namespace coif
+{
+
+// The rest shape of all strands, grown on a scalp. Guides lie in blocks of 16 lanes (kernels/shared.h); the lanes that
+// fill the last block are copies of guide 0 that nothing reads.
+struct Groom
+{
+    int nodes = 0;                     // of a strand
+    int guides = 0;                    // simulated strands
+    int blocks = 0;                    // of 16 guides
+    std::vector<float> root_position;  // [block][axis][lane], node 1, in the head's frame, m
+    std::vector<float> root_direction; // [block][axis][lane], from node 0 to node 1, unit length, in the head's frame
+    std::vector<float> segment_length; // [block][lane], m
+    std::vector<DrawnStrand> drawn;    // mixed ones first
+    int drawn_multi = 0;
+    float longest = 0.0f;      // strand, m
+    float extent = 0.0f;       // of the scalp, m
+    glm::vec3 center{0.0f};    // of the scalp's sphere, in the head's frame, m
+};
+
+// Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones
+// are spread over the triangles by area, copies equally over the guides. Everything random hangs on
+// params.interpolation_seed.
+Groom grow(const HairParams& params, const Scalp& scalp);
+
+// A uniform number in [0, 1) that depends on nothing but its arguments. PCG output of a hashed state, O'Neill 2014.
+float random01(int seed, int index, int channel);
+
+} // namespace coif

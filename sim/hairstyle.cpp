@@ -1,0 +1,341 @@
+#include "sim/hairstyle.h"
+
+#include "sim/error.h"
+#include "sim/toml_edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <toml++/toml.h>
+
+namespace coif
+{
+
+namespace fs = std::filesystem;
+
+static std::string place(const fs::path& file, const toml::source_region& region)
+{
+    return fmt::format("{}:{}:{}", file.string(), region.begin.line, region.begin.column);
+}
+
+static const char* type_name(const toml::node& node)
+{
+    switch (node.type())
+    {
+    case toml::node_type::string:
+        return "text";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+        return "a number";
+    case toml::node_type::boolean:
+        return "true or false";
+    case toml::node_type::array:
+        return "a list";
+    case toml::node_type::table:
+        return "a table";
+    default:
+        return "a date or time";
+    }
+}
+
+static bool read_three(const toml::node& node, double out[3])
+{
+    const toml::array* list = node.as_array();
+    if (!list || list->size() != 3)
+        return false;
+    for (size_t i = 0; i < 3; ++i)
+    {
+        if (!list->get(i)->is_number())
+            return false;
+        out[i] = *list->get(i)->value<double>();
+    }
+    return true;
+}
+
+static bool read_hex_color(const std::string& text, double out[3])
+{
+    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos)
+        return false;
+    for (int i = 0; i < 3; ++i)
+        out[i] = std::stoi(text.substr(size_t(1 + 2 * i), 2), nullptr, 16) / 255.0;
+    return true;
+}
+
+static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
+{
+    double values[3] = {};
+    const auto wrong = [&](const char* wanted)
+    { return fail("{} must be {}, not {}", info.path(), wanted, type_name(node)); };
+    switch (info.kind)
+    {
+    case Kind::FLOAT:
+        if (!node.is_number())
+            throw wrong("a number");
+        values[0] = *node.value<double>();
+        break;
+    case Kind::INT:
+        if (!node.is_integer())
+            throw wrong("a whole number");
+        values[0] = double(*node.value<int64_t>());
+        break;
+    case Kind::VECTOR:
+        if (!read_three(node, values))
+            throw wrong("three numbers like [0.0, 1.0, 0.0]");
+        break;
+    case Kind::COLOR:
+        if (!read_three(node, values) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
+            throw wrong("a colour like \"#8a5a3c\" or three numbers from 0 to 1");
+        break;
+    case Kind::CHOICE:
+    {
+        const std::vector<std::string> labels = param_labels(info);
+        const auto label = std::find(labels.begin(), labels.end(), node.value<std::string>().value_or(""));
+        if (label == labels.end())
+            throw fail("{} must be one of {}", info.path(), fmt::join(labels, ", "));
+        values[0] = double(label - labels.begin());
+        break;
+    }
+    case Kind::TEXT:
+    {
+        if (!node.is_string())
+            throw wrong("text in quotes");
+        const std::string text = *node.value<std::string>();
+        if (text.find('\0') != text.npos)
+            throw fail("{} must not hold a zero byte", info.path());
+        *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&style.host) + info.offset) = text;
+        return;
+    }
+    case Kind::LIST:
+        throw wrong("a list of [[collider]] tables");
+    }
+    set_numbers(style.params, info, values);
+}
+
+static Collider read_collider(const fs::path& file, const toml::node& entry)
+{
+    const toml::table* table = entry.as_table();
+    if (!table)
+        throw fail("{}: collider must be written as [[collider]] tables", place(file, entry.source()));
+    Collider collider;
+    bool has_center = false, has_radius = false;
+    for (auto&& [key, value] : *table)
+    {
+        const auto at = [&, &node = value](const std::string& what)
+        { return fail("{}: {}", place(file, node.source()), what); };
+        double v[3] = {};
+        if (key == "center")
+        {
+            if (!read_three(value, v))
+                throw at("collider.center must be three numbers in metres");
+            for (int i = 0; i < 3; ++i)
+                if (!(std::abs(v[i]) <= 100.0))
+                    throw at(fmt::format("collider.center is {}, but must lie in [-100, 100] m", v[i]));
+            collider.center = {v[0], v[1], v[2]};
+            has_center = true;
+        }
+        else if (key == "radius")
+        {
+            v[0] = value.value<double>().value_or(NAN);
+            if (!value.is_number() || !(v[0] >= 0.001 && v[0] <= 100.0))
+                throw at(value.is_number()
+                             ? fmt::format("collider.radius is {}, but must lie in [0.001, 100] m", v[0])
+                             : fmt::format("collider.radius must be a number, not {}", type_name(value)));
+            collider.radius = float(v[0]);
+            has_radius = true;
+        }
+        else if (key == "on")
+        {
+            const std::string on = value.value<std::string>().value_or("");
+            if (on != "head" && on != "world")
+                throw at("collider.on must be \"head\" or \"world\"");
+            collider.on_head = on == "head";
+        }
+        else
+            throw at(fmt::format("a collider has no '{}'; it has center, radius and on", std::string_view(key.str())));
+    }
+    if (!has_center || !has_radius)
+        throw fail("{}: a collider needs center and radius", place(file, entry.source()));
+    return collider;
+}
+
+static std::vector<Collider> read_colliders(const fs::path& file, const toml::node& node)
+{
+    const toml::array* list = node.as_array();
+    if (!list)
+        throw fail("{}: collider must be written as [[collider]] tables", place(file, node.source()));
+    if (list->size() > 1000)
+        throw fail("{}: {} colliders are more than the 1000 that coif takes", place(file, node.source()), list->size());
+    std::vector<Collider> colliders;
+    for (const toml::node& entry : *list)
+        colliders.push_back(read_collider(file, entry));
+    return colliders;
+}
+
+static toml::table parse_toml(const std::string& text, const fs::path& file)
+try
+{
+    return toml::parse(text, file.string());
+}
+catch (const toml::parse_error& e)
+{
+    throw fail("{}: not valid TOML: {}", place(file, e.source()), e.description());
+}
+
+Hairstyle parse_hairstyle(const std::string& text, const fs::path& file)
+{
+    const toml::table document = parse_toml(text, file);
+    Hairstyle style;
+    style.file = file;
+    style.text = text;
+    for (auto&& [group, node] : document)
+    {
+        if (group == "collider")
+        {
+            style.host.colliders = read_colliders(file, node);
+            continue;
+        }
+        const toml::table* table = node.as_table();
+        if (!table)
+            throw fail("{}: expected a [group], found the key '{}'; did you mean {}?", place(file, node.source()),
+                       std::string_view(group.str()), nearest_param(group.str()));
+        for (auto&& [key, value] : *table)
+        {
+            const std::string path = fmt::format("{}.{}", std::string_view(group.str()), std::string_view(key.str()));
+            const std::string at = place(file, value.source());
+            const ParamInfo* info = find_param(path);
+            if (!info)
+                throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), path,
+                           nearest_param(path));
+            try
+            {
+                read_value(style, *info, value);
+            }
+            catch (const Error& e)
+            {
+                throw fail("{}: {}", at, e.what());
+            }
+            style.places[path] = at;
+        }
+    }
+    return style;
+}
+
+Hairstyle load_hairstyle(const fs::path& file) { return parse_hairstyle(read_file(file, 4 << 20), file); }
+
+std::vector<Collider> load_colliders(const fs::path& file)
+{
+    const toml::table document = parse_toml(read_file(file, 4 << 20), file);
+    std::vector<Collider> colliders;
+    for (auto&& [key, node] : document)
+    {
+        if (key != "collider")
+            throw fail("{}: expected [[collider]] tables only, found '{}'", place(file, key.source()),
+                       std::string_view(key.str()));
+        colliders = read_colliders(file, node);
+    }
+    return colliders;
+}
+
+void assign(Hairstyle& style, const std::string& assignment)
+{
+    const size_t equals = assignment.find('=');
+    if (equals == assignment.npos)
+        throw fail("--set {}: expected group.key=value", assignment);
+    const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    const ParamInfo* info = find_param(path);
+    if (!info)
+        throw fail("--set {}: no parameter is called '{}'; the nearest is {}", assignment, path, nearest_param(path));
+    toml::table document;
+    const bool bare = text.empty() || text[0] == '#' || info->kind == Kind::CHOICE || info->kind == Kind::TEXT;
+    try
+    {
+        if (bare && (text.size() < 2 || text[0] != '"'))
+            document.insert("value", text);
+        else
+            document = toml::parse("value = " + text);
+        read_value(style, *info, *document.get("value"));
+    }
+    catch (const toml::parse_error&)
+    {
+        throw fail("--set {}: '{}' is no TOML value", assignment, text);
+    }
+    catch (const Error& e)
+    {
+        throw fail("--set {}: {}", assignment, e.what());
+    }
+    style.places[path] = "--set " + path;
+}
+
+static std::string float_text(float value)
+{
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == text.npos ? text + ".0" : text;
+}
+
+static std::string toml_string(const std::string& text)
+{
+    std::string out = "\"";
+    for (const char c : text)
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\u{:04x}", int(c));
+        else
+            out += c;
+    return out + '"';
+}
+
+std::string value_text(const Hairstyle& style, const ParamInfo& info)
+{
+    float v[3] = {};
+    if (!info.on_host())
+        get_numbers(style.params, info, v);
+    switch (info.kind)
+    {
+    case Kind::FLOAT:
+        return float_text(v[0]);
+    case Kind::INT:
+        return fmt::format("{}", int(v[0]));
+    case Kind::CHOICE:
+        return toml_string(param_labels(info).at(size_t(v[0])));
+    case Kind::VECTOR:
+        return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
+    case Kind::COLOR:
+    {
+        int bytes[3];
+        bool whole = true;
+        for (int i = 0; i < 3; ++i)
+        {
+            bytes[i] = int(std::lround(v[i] * 255.0f));
+            whole &= float(bytes[i] / 255.0) == v[i];
+        }
+        if (whole)
+            return fmt::format("\"#{:02x}{:02x}{:02x}\"", bytes[0], bytes[1], bytes[2]);
+        return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
+    }
+    case Kind::TEXT:
+        return toml_string(*reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&style.host) + info.offset));
+    case Kind::LIST:
+        return fmt::format("{} of them", style.host.colliders.size());
+    }
+    return {};
+}
+
+bool same_value(const Hairstyle& a, const Hairstyle& b, const ParamInfo& info)
+{
+    return info.kind == Kind::LIST ? a.host.colliders == b.host.colliders : value_text(a, info) == value_text(b, info);
+}
+
+void copy_value(const Hairstyle& from, Hairstyle& to, const ParamInfo& info)
+{
+    if (info.kind == Kind::LIST)
+        to.host.colliders = from.host.colliders;
+    else if (info.kind == Kind::TEXT)
+        *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&to.host) + info.offset) =
+            *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&from.host) + info.offset);
+    else
+        memcpy(reinterpret_cast<char*>(&to.params) + info.offset,
+               reinterpret_cast<const char*>(&from.params) + info.offset, size_t(info.components()) * sizeof(float));
+}
+
+} // namespace coif

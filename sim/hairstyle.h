@@ -1,0 +1,58 @@
+#pragma once
+#include "sim/params.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace coif
+{
+
+// A hairstyle file in memory. Keys that a file leaves out keep the defaults of kernels/params.def; a key that no
+// parameter answers to is an error, so that a slip never passes for a default.
+struct Hairstyle
+{
+    std::filesystem::path file;                // empty for one that was never saved
+    std::string text;                          // as read, so that a save keeps comments and order
+    std::map<std::string, std::string> places; // "scalp.mesh" -> "bob.toml:3:8", for errors told later
+    HairParams params;
+    HostParams host;
+
+    std::string name() const { return file.empty() ? "untitled" : file.stem().string(); }
+};
+
+// Throws Error "bob.toml:12:9: strand.length is -1, but must lie in [0.002, 1.5] m".
+Hairstyle load_hairstyle(const std::filesystem::path& file);
+Hairstyle parse_hairstyle(const std::string& text, const std::filesystem::path& file);
+
+// `[[collider]]` entries of a file of their own, as head.spheres names. Throws Error as load_hairstyle().
+std::vector<Collider> load_colliders(const std::filesystem::path& file);
+
+// "strand.length=0.2", as --set takes it; the value is TOML, or a bare word for texts, choices and colours.
+void assign(Hairstyle& style, const std::string& assignment);
+
+// The TOML text of a value: shortest floats, "#rrggbb" for colours that are bytes, labels for choices.
+std::string value_text(const Hairstyle& style, const ParamInfo& info);
+
+bool same_value(const Hairstyle& a, const Hairstyle& b, const ParamInfo& info);
+void copy_value(const Hairstyle& from, Hairstyle& to, const ParamInfo& info);
+
+// The file as it is to be saved at `target`: style.text with only what changed rewritten, or only what differs from the
+// defaults if it has no text. Relative paths are made relative to the target's folder.
+std::string hairstyle_text(const Hairstyle& style, const std::filesystem::path& target);
+
+// Saves beside the target and renames over it, so that a crash leaves the old file or the new one.
+void save_hairstyle(Hairstyle& style, const std::filesystem::path& target);
+
+// Writes `bytes` beside `file` and renames over it. Throws Error when the folder cannot be written.
+void write_file(const std::filesystem::path& file, const std::string& bytes);
+
+// Reads a whole file. Throws Error for what is missing, no plain file, or larger than `limit` bytes.
+std::string read_file(const std::filesystem::path& file, size_t limit = size_t(1) << 30);
+
+// Where a path written in `style` lies: beside the style, else in coif's data folder `shipped` (hairstyles/, assets/,
+// assets/motions/ are asked by the caller). Throws Error with the place of `key` and both places that were looked at.
+std::filesystem::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
+                                   const std::filesystem::path& shipped);
+
+} // namespace coif

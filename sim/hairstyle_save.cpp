@@ -1,0 +1,134 @@
+#include "sim/error.h"
+#include "sim/hairstyle.h"
+#include "sim/toml_edit.h"
+
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace coif
+{
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& file, size_t limit)
+{
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        throw fail("{}: {}", file.string(), fs::exists(file, error) ? "is no plain file" : "there is no such file");
+    if (fs::file_size(file, error) > limit || error)
+        throw fail("{}: is larger than the {} bytes that coif reads of such a file", file.string(), limit);
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in)
+        throw fail("{}: cannot be read", file.string());
+    return std::move(text).str();
+}
+
+void write_file(const fs::path& file, const std::string& bytes)
+{
+    // Through a link the file that it names is replaced, not the link.
+    std::error_code error;
+    const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file;
+    const fs::path beside = target.string() + fmt::format(".{}.new", getpid());
+    {
+        std::ofstream out(beside, std::ios::binary);
+        out << bytes;
+        out.flush();
+        if (!out)
+        {
+            fs::remove(beside, error);
+            throw fail("{}: cannot be written; is its folder there, and writable?", file.string());
+        }
+    }
+    if (const auto status = fs::status(target, error); fs::exists(status))
+        fs::permissions(beside, status.permissions(), error);
+    fs::rename(beside, target, error);
+    if (error)
+    {
+        std::error_code ignored;
+        fs::remove(beside, ignored);
+        throw fail("{}: cannot be written: {}", file.string(), error.message());
+    }
+}
+
+fs::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
+                      const fs::path& shipped)
+{
+    std::error_code error;
+    const fs::path beside = style.file.parent_path() / written; // an absolute path replaces the folder
+    if (fs::exists(beside, error))
+        return beside;
+    const fs::path data = shipped / written;
+    if (fs::exists(data, error))
+        return data;
+    const auto at = style.places.find(key);
+    throw fail("{}{}: no file '{}', neither as {} nor as {}", at == style.places.end() ? "" : at->second + ": ", key,
+               written, beside.string(), data.string());
+}
+
+static TomlEntry collider_entry(const Collider& collider)
+{
+    Hairstyle text; // borrows the writer of shortest floats
+    const auto number = [&](double value)
+    {
+        text.params.camera_distance = float(value);
+        return value_text(text, *find_param("camera.distance"));
+    };
+    TomlEntry entry = {{"center", fmt::format("[{}, {}, {}]", number(collider.center.x), number(collider.center.y),
+                                              number(collider.center.z))},
+                       {"radius", number(collider.radius)}};
+    if (collider.on_head)
+        entry.push_back({"on", "\"head\""});
+    return entry;
+}
+
+// The style with its relative paths turned from its own folder to the target's.
+static Hairstyle moved(const Hairstyle& style, const fs::path& target)
+{
+    Hairstyle result = style;
+    std::error_code error;
+    const fs::path from = fs::absolute(style.file).parent_path().lexically_normal();
+    const fs::path to = fs::absolute(target).parent_path().lexically_normal();
+    if (style.file.empty() || from == to)
+        return result;
+    for (const ParamInfo& info : param_table())
+    {
+        if (info.kind != Kind::TEXT)
+            continue;
+        auto& path = *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&result.host) + info.offset);
+        if (!path.empty() && fs::path(path).is_relative() && fs::exists(from / path, error))
+            path = (from / path).lexically_normal().lexically_relative(to).string();
+    }
+    return result;
+}
+
+std::string hairstyle_text(const Hairstyle& style, const fs::path& target)
+{
+    const Hairstyle wanted = moved(style, target);
+    const Hairstyle written = style.text.empty() ? Hairstyle{} : parse_hairstyle(style.text, style.file);
+    std::vector<TomlEdit> edits;
+    for (const ParamInfo& info : param_table())
+        if (info.kind != Kind::LIST && !same_value(wanted, written, info))
+            edits.push_back({info.group, info.name, value_text(wanted, info)});
+    std::string text = edit_toml(style.text, edits);
+    if (wanted.host.colliders != written.host.colliders)
+    {
+        std::vector<TomlEntry> entries;
+        for (const Collider& collider : wanted.host.colliders)
+            entries.push_back(collider_entry(collider));
+        text = edit_toml_array(text, "collider", entries);
+    }
+    return text;
+}
+
+void save_hairstyle(Hairstyle& style, const fs::path& target)
+{
+    const std::string text = hairstyle_text(style, target);
+    Hairstyle saved = parse_hairstyle(text, target); // what was written is what will be read
+    write_file(target, text);
+    style = std::move(saved);
+}
+
+} // namespace coif

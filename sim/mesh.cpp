@@ -1,0 +1,241 @@
+#include "sim/mesh.h"
+
+#include "sim/error.h"
+#include "sim/hairstyle.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace coif
+{
+
+static bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// The line (from 1) of the n-th statement (from 0) of an OBJ that begins with `word`.
+static int obj_line(const std::string& text, const std::string& word, size_t n)
+{
+    std::istringstream in(text);
+    std::string line, first;
+    for (int number = 1; std::getline(in, line); ++number)
+        if (std::istringstream(line) >> first && first == word && n-- == 0)
+            return number;
+    return 1;
+}
+
+// Least-squares sphere: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in c and the bracket. Solved by Gauss elimination with
+// pivoting; a flat scalp has no sphere, and then its centroid stands in for the centre.
+static void fit_sphere(Scalp& scalp)
+{
+    glm::dvec3 mean(0.0);
+    for (const glm::vec3& p : scalp.positions)
+        mean += glm::dvec3(p);
+    mean /= double(scalp.positions.size());
+    double m[4][5] = {};
+    for (const glm::vec3& v : scalp.positions)
+    {
+        const glm::dvec3 p = (glm::dvec3(v) - mean) / double(scalp.extent);
+        const double row[5] = {2.0 * p.x, 2.0 * p.y, 2.0 * p.z, 1.0, glm::dot(p, p)};
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 5; ++j)
+                m[i][j] += row[i] * row[j];
+    }
+    bool solved = true;
+    for (int k = 0; k < 4 && solved; ++k)
+    {
+        int pivot = k;
+        for (int i = k + 1; i < 4; ++i)
+            if (std::abs(m[i][k]) > std::abs(m[pivot][k]))
+                pivot = i;
+        std::swap(m[k], m[pivot]);
+        solved = std::abs(m[k][k]) > 1e-6 * double(scalp.positions.size());
+        for (int i = 0; i < 4 && solved; ++i)
+            for (int j = 4; i != k && j >= k; --j)
+                m[i][j] -= m[k][j] * m[i][k] / m[k][k];
+    }
+    const glm::dvec3 c = solved ? glm::dvec3(m[0][4] / m[0][0], m[1][4] / m[1][1], m[2][4] / m[2][2]) : glm::dvec3(0.0);
+    const double r2 = solved ? m[3][4] / m[3][3] + glm::dot(c, c) : 0.25;
+    scalp.center = glm::vec3(mean + c * double(scalp.extent));
+    scalp.radius = float(std::sqrt(std::max(r2, 0.0)) * double(scalp.extent));
+}
+
+Scalp load_scalp(const std::filesystem::path& file)
+{
+    const std::string name = file.string(), text = read_file(file, 64 << 20);
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = false;
+    tinyobj::ObjReader reader;
+    if (!reader.ParseFromString(text, "", config))
+        throw fail("{}:1: is no OBJ: {}", name, reader.Error());
+    const std::vector<float>& v = reader.GetAttrib().vertices;
+    if (v.size() < 9)
+        throw fail("{}:1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)", name);
+    if (v.size() > 3 * 65536)
+        throw fail("{}: {} vertices are more guides than the 65536 that coif takes", name, v.size() / 3);
+
+    Scalp scalp;
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (size_t i = 0; i + 2 < v.size(); i += 3)
+    {
+        const glm::vec3 p(v[i], v[i + 1], v[i + 2]);
+        if (!is_finite(p) || glm::dot(p, p) > 1e8f)
+            throw fail("{}:{}: a vertex must be three finite numbers within 10 km, in metres", name,
+                       obj_line(text, "v", i / 3));
+        scalp.positions.push_back(p);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    scalp.extent = std::max({size.x, size.y, size.z});
+    if (!(scalp.extent > 1e-5f))
+        throw fail("{}: all vertices of the scalp lie in one place", name);
+
+    size_t face = 0;
+    for (const tinyobj::shape_t& shape : reader.GetShapes())
+    {
+        size_t corner = 0;
+        for (const auto corners : shape.mesh.num_face_vertices)
+        {
+            if (corners != 3)
+                throw fail("{}:{}: a scalp must be triangles, but this face has {} corners; triangulate it on export",
+                           name, obj_line(text, "f", face), int(corners));
+            glm::uvec3 triangle;
+            for (int k = 0; k < 3; ++k)
+            {
+                const int index = shape.mesh.indices.at(corner++).vertex_index;
+                if (index < 0 || size_t(index) >= scalp.positions.size())
+                    throw fail("{}:{}: this face names vertex {}, but there are {}", name, obj_line(text, "f", face),
+                               index + 1, scalp.positions.size());
+                triangle[k] = unsigned(index);
+            }
+            scalp.triangles.push_back(triangle);
+            ++face;
+        }
+    }
+    if (scalp.triangles.empty())
+        throw fail("{}: a scalp needs triangles (f a b c), but has none", name);
+    fit_sphere(scalp);
+    scalp.normals = vertex_normals(scalp, scalp.center);
+    return scalp;
+}
+
+static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::mat4 parent, int depth, const char* file)
+{
+    if (depth > 200)
+        throw fail("{}: its nodes are nested deeper than 200", file);
+    const aiMatrix4x4& a = node.mTransformation; // row by row, GLM's is column by column
+    const glm::mat4 local(a.a1, a.b1, a.c1, a.d1, a.a2, a.b2, a.c2, a.d2, a.a3, a.b3, a.c3, a.d3, a.a4, a.b4, a.c4,
+                          a.d4);
+    const glm::mat4 world = parent * local;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m)
+    {
+        const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
+        const unsigned first = unsigned(mesh.positions.size());
+        for (unsigned i = 0; i < part.mNumVertices; ++i)
+        {
+            const aiVector3D& p = part.mVertices[i];
+            const glm::vec3 position(world * glm::vec4(p.x, p.y, p.z, 1.0f));
+            if (!is_finite(position))
+                throw fail("{}: vertex {} is not finite", file, i);
+            mesh.positions.push_back(position);
+        }
+        for (unsigned f = 0; f < part.mNumFaces; ++f)
+        {
+            const aiFace& face = part.mFaces[f];
+            if (face.mNumIndices != 3)
+                continue; // points and lines, which assimp sorts out beside the triangles
+            mesh.triangles.push_back(
+                {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+        }
+        if (mesh.triangles.size() > 5'000'000 || mesh.positions.size() > 15'000'000)
+            throw fail("{}: has more than the five million triangles that coif takes; simplify it", file);
+    }
+    for (unsigned c = 0; c < node.mNumChildren; ++c)
+        append(mesh, scene, *node.mChildren[c], world, depth + 1, file);
+}
+
+Mesh load_mesh(const std::filesystem::path& file)
+{
+    const std::string name = file.string();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        throw fail("{}: there is no such file", name);
+    if (std::filesystem::file_size(file, error) > (size_t(1) << 30))
+        throw fail("{}: is larger than the 1 GB that coif reads of a mesh", name);
+    Assimp::Importer importer;
+    // Positions alone are kept and joined, so that normals computed here are smooth whatever the file's corners say.
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                                            aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                                            aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                                            aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                                            aiComponent_CAMERAS | aiComponent_MATERIALS);
+    const aiScene* scene = importer.ReadFile(name, aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices |
+                                                       aiProcess_Triangulate | aiProcess_SortByPType);
+    if (!scene || !scene->mRootNode || scene->mNumMeshes == 0)
+        throw fail("{}: is no mesh that coif can read: {}", name, importer.GetErrorString());
+    Mesh mesh;
+    append(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name.c_str());
+    if (mesh.triangles.empty())
+        throw fail("{}: has no triangles", name);
+    mesh.normals = vertex_normals(mesh, glm::vec3(0.0f));
+    return mesh;
+}
+
+float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c)
+{
+    const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
+    const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0f && d2 <= 0.0f)
+        return glm::length(ap);
+    const glm::vec3 bp = p - b;
+    const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0f && d4 <= d3)
+        return glm::length(bp);
+    const glm::vec3 cp = p - c;
+    const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0f && d5 <= d6)
+        return glm::length(cp);
+    const float vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f && d1 - d3 > 0.0f)
+        return glm::length(ap - ab * (d1 / (d1 - d3)));
+    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f && d2 - d6 > 0.0f)
+        return glm::length(ap - ac * (d2 / (d2 - d6)));
+    const float e = d4 - d3, f = d5 - d6;
+    if (va <= 0.0f && e >= 0.0f && f >= 0.0f && e + f > 0.0f)
+        return glm::length(bp - (c - b) * (e / (e + f)));
+    const float sum = va + vb + vc;
+    if (!(sum > 0.0f))
+        return glm::length(ap); // no area
+    return glm::length(ap - ab * (vb / sum) - ac * (vc / sum));
+}
+
+std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center)
+{
+    std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
+    for (const glm::uvec3& t : mesh.triangles)
+    {
+        const glm::vec3 a = mesh.positions[t.x];
+        const glm::vec3 n = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a); // twice the area long
+        for (int k = 0; k < 3; ++k)
+            normals[t[k]] += n;
+    }
+    for (size_t i = 0; i < normals.size(); ++i)
+    {
+        glm::vec3 n = normals[i];
+        if (!(glm::dot(n, n) > 0.0f))
+            n = mesh.positions[i] - center;
+        const float length = glm::length(n);
+        normals[i] = length > 0.0f ? n / length : glm::vec3(0.0f, 1.0f, 0.0f);
+    }
+    return normals;
+}
+
+} // namespace coif

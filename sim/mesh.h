@@ -1,0 +1,40 @@
+#pragma once
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <vector>
+
+namespace coif
+{
+
+// Triangles in the head's frame, m.
+struct Mesh
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; // one a position, unit length
+    std::vector<glm::uvec3> triangles;
+};
+
+// A scalp: vertex i carries guide i.
+struct Scalp : Mesh
+{
+    glm::vec3 center{0.0f}; // of the sphere that fits the vertices best, m
+    float radius = 0.0f;    // of that sphere, m
+    float extent = 0.0f;    // longest side of the vertices' bounding box, m
+};
+
+// An OBJ of triangles (tinyobjloader keeps the order of the vertices). Throws Error with file and line for anything
+// else: polygons, indices out of range, coordinates that are not finite, more than 65,536 vertices, no extent.
+Scalp load_scalp(const std::filesystem::path& file);
+
+// Any mesh that assimp reads, with its nodes' transforms applied. Normals are computed where the file has none. Throws
+// Error when it is no mesh, has no triangles, more than five million of them, or coordinates that are not finite.
+Mesh load_mesh(const std::filesystem::path& file);
+
+// Distance from p to triangle abc, m. Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
+float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c);
+
+// Area-weighted normals of the positions; where triangles give none, the direction from `center`.
+std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center);
+
+} // namespace coif

@@ -1,0 +1,200 @@
+#include "sim/params.h"
+
+#include "sim/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace coif
+{
+
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
+    {#group,                                                                                                           \
+     #name,                                                                                                            \
+     Kind::kind,                                                                                                       \
+     Scope::scope,                                                                                                     \
+     Effect::effect,                                                                                                   \
+     offsetof(HairParams, group##_##name),                                                                             \
+     lo,                                                                                                               \
+     hi,                                                                                                               \
+     unit,                                                                                                             \
+     labels,                                                                                                           \
+     help},
+#define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
+#define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
+#define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
+    {#group,                                                                                                           \
+     #name,                                                                                                            \
+     Kind::kind,                                                                                                       \
+     Scope::scope,                                                                                                     \
+     Effect::effect,                                                                                                   \
+     COIF_OFFSET_##kind(group, name),                                                                                  \
+     0.0f,                                                                                                             \
+     0.0f,                                                                                                             \
+     "",                                                                                                               \
+     "",                                                                                                               \
+     help},
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winvalid-offsetof" // HostParams holds strings; its offsets are well defined here
+static const ParamInfo kParams[] = {
+#include "kernels/params.def"
+};
+#pragma GCC diagnostic pop
+
+std::span<const ParamInfo> param_table() { return kParams; }
+
+const char* kind_name(Kind kind)
+{
+    static const char* const names[] = {"number", "whole number", "choice", "three numbers", "colour", "text", "list"};
+    return names[int(kind)];
+}
+
+const char* scope_name(Scope scope)
+{
+    static const char* const names[] = {"global", "strand", "profile"};
+    return names[int(scope)];
+}
+
+const char* effect_name(Effect effect)
+{
+    static const char* const names[] = {"live", "view", "regrow", "rebuild"};
+    return names[int(effect)];
+}
+
+const ParamInfo* find_param(std::string_view path)
+{
+    for (const ParamInfo& info : param_table())
+        if (path == info.path())
+            return &info;
+    return nullptr;
+}
+
+static int edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<int> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (size_t i = 1; i <= a.size(); ++i)
+    {
+        int diagonal = std::exchange(row[0], int(i));
+        for (size_t j = 1; j <= b.size(); ++j)
+        {
+            const int change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
+        }
+    }
+    return row[b.size()];
+}
+
+std::string nearest_param(std::string_view path)
+{
+    // A hostile file may hold a key of megabytes; its head is enough to tell what was meant.
+    path = path.substr(0, 100);
+    std::string best;
+    int least = INT32_MAX;
+    for (const ParamInfo& info : param_table())
+    {
+        // A right key in a wrong group is the likelier slip: compare the bare name as well.
+        const std::string known = info.path();
+        const size_t dot = path.find('.');
+        const std::string_view bare = dot == path.npos ? path : path.substr(dot + 1);
+        const int distance = std::min(edit_distance(path, known), *info.name ? edit_distance(bare, info.name) + 2 : 99);
+        if (distance < least)
+        {
+            least = distance;
+            best = known;
+        }
+    }
+    return best;
+}
+
+std::vector<std::string> param_labels(const ParamInfo& info)
+{
+    std::vector<std::string> labels;
+    const std::string_view all = info.labels;
+    for (size_t begin = 0; begin <= all.size();)
+    {
+        const size_t end = std::min(all.find('|', begin), all.size());
+        labels.emplace_back(all.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return labels;
+}
+
+void get_numbers(const HairParams& params, const ParamInfo& info, float out[3])
+{
+    const char* field = reinterpret_cast<const char*>(&params) + info.offset;
+    if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
+    {
+        int value;
+        memcpy(&value, field, sizeof value);
+        out[0] = float(value);
+        return;
+    }
+    memcpy(out, field, size_t(info.components()) * sizeof(float));
+}
+
+void set_numbers(HairParams& params, const ParamInfo& info, const double values[3])
+{
+    float floats[3];
+    for (int i = 0; i < info.components(); ++i)
+    {
+        if (!std::isfinite(values[i]))
+            throw fail("{} is {}, but must be a finite number", info.path(), values[i]);
+        floats[i] = float(values[i]);
+        if (!(floats[i] >= info.min && floats[i] <= info.max))
+            throw fail("{} is {}, but must lie in [{}, {}]{}{}", info.path(), floats[i], info.min, info.max,
+                       *info.unit ? " " : "", info.unit);
+    }
+    char* field = reinterpret_cast<char*>(&params) + info.offset;
+    if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
+    {
+        const int value = int(values[0]);
+        memcpy(field, &value, sizeof value);
+    }
+    else
+        memcpy(field, floats, size_t(info.components()) * sizeof(float));
+}
+
+static float linear_of_srgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+HairParams device_params(const HairParams& authored)
+{
+    HairParams params = authored;
+    for (const ParamInfo& info : param_table())
+    {
+        if (info.on_host() || info.kind == Kind::INT || info.kind == Kind::CHOICE)
+            continue;
+        float* value = reinterpret_cast<float*>(reinterpret_cast<char*>(&params) + info.offset);
+        for (int i = 0; i < info.components(); ++i)
+        {
+            if (info.kind == Kind::COLOR)
+                value[i] = linear_of_srgb(value[i]);
+            else if (!strcmp(info.unit, "deg"))
+                value[i] *= std::numbers::pi_v<float> / 180.0f;
+        }
+    }
+    float4& light = params.look_light_direction;
+    const float norm = std::sqrt(light.x * light.x + light.y * light.y + light.z * light.z);
+    light = norm > 1e-6f ? F4(light.x / norm, light.y / norm, light.z / norm, 0.0f) : F4(0.0f, 1.0f, 0.0f, 0.0f);
+    return params;
+}
+
+std::string glsl_params_block()
+{
+    std::string text = "layout(std140) uniform HairParams {\n";
+    for (const ParamInfo& info : param_table())
+        if (!info.on_host())
+            text += fmt::format("    {} {}_{};\n",
+                                info.components() == 3                                      ? "vec4"
+                                : info.kind == Kind::INT || info.kind == Kind::CHOICE ? "int"
+                                                                                            : "float",
+                                info.group, info.name);
+    return text + "} params;\n";
+}
+
+} // namespace coif

@@ -1,0 +1,108 @@
+#pragma once
+#include "kernels/shared.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace coif
+{
+
+// A sphere that hair slides over.
+struct Collider
+{
+    glm::vec3 center{0.0f};  // m, in the head's frame or in the world
+    float radius = 0.05f;    // m
+    bool on_head = false;    // moves with the head
+    bool operator==(const Collider&) const = default;
+};
+
+#define COIF_MEMBER_TEXT(group, name, value) std::string group##_##name = value;
+#define COIF_MEMBER_LIST(group, name, value) std::vector<Collider> group##s;
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)
+#define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_MEMBER_##kind(group, name, value)
+
+// What an artist authors that never reaches the device: paths as they stand in the file, and lists.
+struct HostParams
+{
+#include "kernels/params.def"
+    bool operator==(const HostParams&) const = default;
+};
+#undef COIF_PARAM
+#undef COIF_HOST
+
+enum class Kind
+{
+    FLOAT,
+    INT,
+    CHOICE,
+    VECTOR,
+    COLOR,
+    TEXT,
+    LIST
+};
+enum class Scope
+{
+    GLOBAL,
+    STRAND,
+    PROFILE
+};
+enum class Effect
+{
+    LIVE,
+    VIEW,
+    REGROW,
+    REBUILD
+};
+
+// One line of kernels/params.def, as data. Whatever handles parameters walks this table, so that nothing of it changes
+// when a parameter is added.
+struct ParamInfo
+{
+    const char* group;
+    const char* name;
+    Kind kind;
+    Scope scope;
+    Effect effect;
+    size_t offset; // into HairParams, or into HostParams for TEXT and LIST
+    float min, max;
+    const char* unit;
+    const char* labels; // of a CHOICE, separated by |
+    const char* help;
+
+    std::string path() const { return *name ? std::string(group) + "." + name : group; }
+    bool on_host() const { return kind == Kind::TEXT || kind == Kind::LIST; }
+    int components() const { return kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
+};
+
+std::span<const ParamInfo> param_table();
+const char* kind_name(Kind kind);
+const char* scope_name(Scope scope);
+const char* effect_name(Effect effect);
+
+// "strand.length" -> its line, or null.
+const ParamInfo* find_param(std::string_view path);
+
+// The known path that is fewest edits (Levenshtein 1966) away from `path`.
+std::string nearest_param(std::string_view path);
+
+// The labels of a CHOICE, in order.
+std::vector<std::string> param_labels(const ParamInfo& info);
+
+// Authored numbers of a parameter that crosses to the device; VECTOR and COLOR fill three.
+void get_numbers(const HairParams& params, const ParamInfo& info, float out[3]);
+
+// Takes them after checking. Throws Error "strand.length is -1, but must lie in [0.002, 1.5] m".
+void set_numbers(HairParams& params, const ParamInfo& info, const double values[3]);
+
+// Radians for degrees, linear for sRGB (IEC 61966-2-1), unit length for directions: what kernels and shaders read.
+HairParams device_params(const HairParams& authored);
+
+// The same declarations as a std140 block named `params`, since GLSL cannot read params.def itself.
+std::string glsl_params_block();
+
+} // namespace coif

@@ -1,0 +1,162 @@
+#include "sim/simulation.h"
+
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+
+static std::filesystem::path asset(const Hairstyle& style, const std::string& key, const std::string& written)
+{
+    return resolve_path(style, key, written, data_folder() / "assets");
+}
+
+Assets load_assets(const Hairstyle& style)
+{
+    Assets assets;
+    // A fault in a file that the style names is told with the place where the style names it.
+    const auto load = [&](const char* key, const std::string& written, auto&& read)
+    {
+        const std::filesystem::path file = asset(style, key, written);
+        try
+        {
+            return read(file);
+        }
+        catch (const Error& e)
+        {
+            const auto at = style.places.find(key);
+            throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
+        }
+    };
+    if (style.host.scalp_mesh.empty())
+        throw fail("{}: scalp.mesh must name an OBJ", style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh")
+                                                                                         : style.name());
+    assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
+    if (!style.host.head_mesh.empty())
+        assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
+    if (!style.host.head_spheres.empty())
+        assets.spheres = load("head.spheres", style.host.head_spheres, load_colliders);
+    else
+        assets.spheres = {{assets.scalp.center, assets.scalp.radius, true}};
+    return assets;
+}
+
+std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets)
+{
+    const HairParams& p = style.params;
+    const bool own = style.host.head_spheres.empty(); // fitted to the scalp: where the mesh lies does not matter
+    const glm::vec3 offset = own ? glm::vec3(0.0f) : glm::vec3(p.head_offset.x, p.head_offset.y, p.head_offset.z);
+    std::vector<Collider> all;
+    for (const Collider& sphere : assets.spheres)
+        all.push_back({(sphere.center + offset) * p.head_scale, sphere.radius * p.head_scale, true});
+    all.insert(all.end(), style.host.colliders.begin(), style.host.colliders.end());
+    return all;
+}
+
+Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), style_(std::move(style))
+{
+    assets_ = load_assets(style_);
+    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
+    solver_->set_colliders(all_colliders(style_, assets_));
+}
+
+void Simulation::set_style(const Hairstyle& style, bool reload)
+{
+    bool meshes = reload, regrow = reload;
+    for (const ParamInfo& info : param_table())
+    {
+        if (info.effect == Effect::LIVE || info.effect == Effect::VIEW || same_value(style, style_, info))
+            continue;
+        regrow = true;
+        meshes |= info.kind == Kind::TEXT;
+    }
+    Assets fresh = meshes ? load_assets(style) : Assets{}; // may throw; nothing has changed yet
+    if (meshes)
+        assets_ = std::move(fresh);
+    if (regrow)
+        solver_->set_groom(grow(style.params, assets_.scalp));
+    style_ = style;
+    solver_->set_params(style.params);
+    solver_->set_colliders(all_colliders(style_, assets_));
+}
+
+void Simulation::play(std::optional<Motion> motion)
+{
+    if (motion_)
+    {
+        // The head stays where the script has brought it.
+        const Pose wind_free = {solver_->head().origin, solver_->head().turn, glm::dvec3(0.0)};
+        hand_ = wind_free;
+    }
+    motion_ = std::move(motion);
+    motion_time_ = 0.0;
+}
+
+double Simulation::step_seconds() const { return 1.0 / double(style_.params.solver_rate); }
+
+void Simulation::step(const Pose& hand)
+{
+    const double h = step_seconds();
+    const int substeps = std::max(1, int(std::ceil(h * 60.0 - 1e-6)));
+    std::vector<Substep> all;
+    for (int i = 1; i <= substeps; ++i)
+    {
+        const double share = double(i) / substeps;
+        Pose pose;
+        pose.origin = glm::mix(hand_.origin, hand.origin, share);
+        pose.turn = glm::slerp(hand_.turn, hand.turn, share);
+        if (motion_)
+            pose = pose * pose_at(*motion_, motion_time_ + h * share);
+        all.push_back({pose, time_ + h * share, float(h / substeps)});
+    }
+    solver_->step(all);
+    hand_ = hand;
+    ++steps_;
+    time_ = double(steps_) * h; // not summed up: a million steps must not drift
+    motion_time_ += h;
+    if (motion_ && motion_time_ > motion_->seconds)
+        play(std::nullopt);
+}
+
+int Simulation::advance(double seconds, const Pose& hand, int most)
+{
+    const double h = step_seconds();
+    owed_ += std::isfinite(seconds) ? std::clamp(seconds, 0.0, 3600.0) : 0.0;
+    const long due = long(owed_ / h + 1e-9);
+    const int taken = int(std::min<long>(due, most));
+    owed_ -= double(due) * h;
+    dropped_ += due - taken;
+    const Pose from = hand_;
+    bool with_hand = true;
+    for (int i = 1; i <= taken; ++i)
+    {
+        const bool played = playing();
+        const double share = double(i) / taken;
+        step(with_hand ? Pose{glm::mix(from.origin, hand.origin, share), glm::slerp(from.turn, hand.turn, share), {}}
+                       : hand_);
+        with_hand &= played == playing(); // a script that ends has moved the hand's frame
+    }
+    return taken;
+}
+
+void Simulation::settle(double seconds)
+{
+    const std::optional<Motion> motion = std::exchange(motion_, std::nullopt);
+    for (double t = 0.0; t < seconds; t += step_seconds())
+    {
+        step(hand_);
+        if (steps_ % 16 == 0)
+            solver_->take_times(); // lets the queue's uploads go
+    }
+    motion_ = motion;
+}
+
+void Simulation::reset()
+{
+    solver_->reset(solver_->head());
+}
+
+} // namespace coif

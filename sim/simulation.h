@@ -1,0 +1,76 @@
+#pragma once
+#include "sim/hairstyle.h"
+#include "sim/mesh.h"
+#include "sim/solver.h"
+
+#include <memory>
+#include <optional>
+
+namespace coif
+{
+
+// What a style names by path, loaded.
+struct Assets
+{
+    Scalp scalp;
+    Mesh head;                     // empty if the style names none
+    std::vector<Collider> spheres; // that stand for the head
+};
+
+// Loads them; throws Error with the place in the style where a path is written.
+Assets load_assets(const Hairstyle& style);
+
+// The head's own spheres, scaled and offset as the style says, followed by the style's colliders.
+std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets);
+
+// A hairstyle that lives: assets, groom and solver, and the time that runs in fixed steps whatever the frame rate.
+class Simulation
+{
+  public:
+    // Throws Error for what the style names and cannot be had.
+    Simulation(const Device& device, Hairstyle style);
+
+    const Hairstyle& style() const { return style_; }
+    const Assets& assets() const { return assets_; }
+    Solver& solver() { return *solver_; }
+    const Solver& solver() const { return *solver_; }
+
+    // Takes changed values, doing only what they ask for (ParamInfo::effect). If that fails, the old state stays and
+    // Error is thrown. `reload` loads the meshes again though their paths are the same.
+    void set_style(const Hairstyle& style, bool reload = false);
+
+    void play(std::optional<Motion> motion); // from its beginning; none: stop where the head is
+    bool playing() const { return motion_.has_value(); }
+    std::string motion_name() const { return motion_ ? motion_->name : ""; }
+
+    // One fixed step: the hand's pose moves to `hand`, the script goes on.
+    void step(const Pose& hand);
+
+    // As many steps as `seconds` asks for; what is over waits for the next call. At most `most` steps are taken and the
+    // rest is dropped and counted. The hand arrives at `hand` with the last step. Returns the steps taken.
+    int advance(double seconds, const Pose& hand, int most);
+
+    // Steps without looking, so that hair hangs when it is first seen.
+    void settle(double seconds);
+    void reset(); // hair to its rest shape, where the head is
+
+    double step_seconds() const;
+    double time() const { return time_; }
+    long steps() const { return steps_; }
+    long dropped() const { return dropped_; }
+    const Pose& hand() const { return hand_; }
+    glm::dvec3 jumped() const { return solver_->jumped(); } // how far teleports have carried the head, m
+
+  private:
+    const Device& device_;
+    Hairstyle style_;
+    Assets assets_;
+    std::unique_ptr<Solver> solver_;
+    std::optional<Motion> motion_;
+    double motion_time_ = 0.0;
+    double time_ = 0.0, owed_ = 0.0; // s
+    long steps_ = 0, dropped_ = 0;
+    Pose hand_;
+};
+
+} // namespace coif

@@ -1,0 +1,91 @@
+#pragma once
+#include "sim/device.h"
+#include "sim/groom.h"
+#include "sim/motion.h"
+#include "sim/params.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coif
+{
+
+// The head at the end of a substep.
+struct Substep
+{
+    Pose head;
+    double time = 0.0; // s, at its end
+    float seconds = 1.0f / 60.0f;
+};
+
+// Milliseconds that the device spent in a pass since the last take_times().
+using PassTimes = std::vector<std::pair<std::string, double>>;
+
+// Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
+// positions back; nothing in between touches the host.
+class Solver
+{
+  public:
+    // Starts at rest about `head`. `params` as authored.
+    Solver(const Device& device, const HairParams& params, const Groom& groom, const Pose& head);
+
+    void set_params(const HairParams& params);
+    // Takes new roots and weights. Strands keep their motion if guides and nodes are as many as before.
+    void set_groom(const Groom& groom);
+    // In the head's frame those on_head, in the world the others.
+    void set_colliders(const std::vector<Collider>& colliders);
+
+    void reset(const Pose& head); // all strands straight from their roots, at rest
+    // One fixed step, cut into substeps (thesis, figure 4.1). A substep that is not longer than zero is none.
+    void step(const std::vector<Substep>& substeps);
+    void draw(); // drawn strands and light for the last finished step
+
+    // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.
+    Mapped guide_positions() const;  // float, [block][node][axis][lane], relative to the head's origin, m
+    Mapped drawn_positions() const;  // float4 (position relative to the head's origin, share of light), [strand][node]
+    Mapped drawn_frames() const;     // float4 (normal, length from the root), [strand][node]
+    Mapped optical_depth() const;    // float, [slice][ray][ray] of light_grid.h
+    std::vector<int> resets() const; // of each guide since the start
+    bool has_shadow() const;
+
+    const Groom& groom() const { return groom_; }
+    const StepInfo& info() const { return info_; }
+    const Pose& head() const { return head_; }
+    std::vector<float4> placed_colliders() const; // relative to the head's origin, at the last step
+    glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
+    PassTimes take_times();
+
+    // For tests: buffers by kernel argument.
+    const Buffers& buffers() const { return buffers_; }
+
+  private:
+    const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
+    Kernel& kernel(const std::string& file, const std::string& extra);
+    void launch(const std::string& pass, const std::string& extra, size_t items);
+    void simulate(const StepInfo& info);
+    void upload(const StepInfo& info);
+
+    const Device& device_;
+    HairParams params_; // as the device reads them
+    Groom groom_;
+    Pose head_;
+    double time_ = 0.0;
+    glm::dvec3 head_velocity_{0.0}, jumped_{0.0};
+    std::vector<Collider> colliders_;
+    StepInfo info_ = {};
+    Buffers buffers_;
+    std::map<std::string, Kernel> kernels_; // by file and options
+    // What the queue still reads from, and its launches: kept until the host next waits.
+    std::vector<std::vector<char>> in_flight_;
+    std::vector<std::pair<std::string, cl::Event>> launches_;
+    PassTimes times_;
+};
+
+// What the device reads in one substep, for `before` -> `now`. Thesis eq. 5.5 for strengths, accuracy of the sweeps'
+// over-relaxation as Young 1950, optical depth as Bertails et al. 2005. `params` as the device reads them.
+StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
+                        const Substep& now, int colliders, bool last);
+
+} // namespace coif
