@@ -101,14 +101,19 @@ int run_command(int argc, char** argv)
     CLI::App* shot_command = with_device(common(app.add_subcommand("shot", "Draw a picture without a window"), true));
     shot_command->add_option("-o,--output", options.output, "PNG to write")->required();
     shot_command->add_option("--size", size, "WIDTHxHEIGHT in pixels, up to 8192 each")->capture_default_str();
-    shot_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")->capture_default_str();
+    shot_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
+        ->capture_default_str();
     shot_command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
-    shot_command->add_option("--camera", shot.camera, "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
-    shot_command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")->capture_default_str();
+    shot_command->add_option("--camera", shot.camera,
+                             "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
+    shot_command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")
+        ->capture_default_str();
     shot_command->add_flag("--transparent", shot.transparent, "No backdrop: alpha instead");
 
-    CLI::App* report_command = with_device(common(app.add_subcommand("report", "Play a motion and print health"), true));
-    report_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")->capture_default_str();
+    CLI::App* report_command =
+        with_device(common(app.add_subcommand("report", "Play a motion and print health"), true));
+    report_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
+        ->capture_default_str();
     report_command->add_option("--seconds", options.seconds, "How long")->capture_default_str();
     report_command->add_option("--fps", wanted.fps, "Frames a second that are looked at")->capture_default_str();
     report_command->add_option("--settle", wanted.settle, "Seconds at rest before the motion")->capture_default_str();

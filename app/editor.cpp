@@ -1,2 +1,5 @@
 #include "app/editor.h"
-namespace coif { int edit(const Options&) { return 0; } }
+namespace coif
+{
+int edit(const Options&) { return 0; }
+} // namespace coif

@@ -36,8 +36,8 @@ bool has_display();
 // Does a processor, rather than a graphics card, draw? Asks the current context.
 bool is_software_renderer();
 
-// shaders/<name>.vert (or <vertex>.vert), <name>.geom if there is one, and <name>.frag, linked, with the blocks Frame and
-// HairParams bound. `#include "params"` is answered with the parameters' block.
+// shaders/<name>.vert (or <vertex>.vert), <name>.geom if there is one, and <name>.frag, linked, with the blocks Frame
+// and HairParams bound. `#include "params"` is answered with the parameters' block.
 class ShaderProgram
 {
   public:

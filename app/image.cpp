@@ -44,8 +44,9 @@ Image shrunk(const Image& image, int by)
                 int sum = 0;
                 for (int j = 0; j < by; ++j)
                     for (int i = 0; i < by; ++i)
-                        sum += image.pixels[size_t(4) * (size_t(y * by + j) * size_t(image.width) + size_t(x * by + i)) +
-                                            size_t(c)];
+                        sum +=
+                            image.pixels[size_t(4) * (size_t(y * by + j) * size_t(image.width) + size_t(x * by + i)) +
+                                         size_t(c)];
                 small.pixels.push_back(static_cast<unsigned char>(sum / (by * by)));
             }
     return small;

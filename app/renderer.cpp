@@ -34,7 +34,8 @@ struct Renderer::Programs
 
 glm::dvec3 Camera::position() const
 {
-    return target + distance * glm::dvec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
+    return target +
+           distance * glm::dvec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
 }
 
 Camera camera_of(const HairParams& authored)
@@ -57,8 +58,8 @@ void keep_camera(const Camera& camera, HairParams& params)
     params.camera_pitch = rounded(camera.pitch * degrees, 0.1);
     params.camera_fov = rounded(camera.fov * degrees, 0.1);
     params.camera_distance = rounded(camera.distance, 1e-3);
-    params.camera_target = F4(rounded(camera.target.x, 1e-3), rounded(camera.target.y, 1e-3),
-                              rounded(camera.target.z, 1e-3), 0.0f);
+    params.camera_target =
+        F4(rounded(camera.target.x, 1e-3), rounded(camera.target.y, 1e-3), rounded(camera.target.z, 1e-3), 0.0f);
 }
 
 FrameInput frame_input(const Simulation& simulation, const Camera& camera)
@@ -104,7 +105,8 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &guide_array_, &empty_array_})
         *array = make_array();
 
-    const std::pair<GLuint, size_t> blocks[] = {{frame_block_, sizeof(FrameBlock)}, {params_block_, sizeof(HairParams)}};
+    const std::pair<GLuint, size_t> blocks[] = {{frame_block_, sizeof(FrameBlock)},
+                                                {params_block_, sizeof(HairParams)}};
     for (GLuint i = 0; i < 2; ++i)
     {
         glBindBuffer(GL_UNIFORM_BUFFER, blocks[i].first);
@@ -239,8 +241,12 @@ void Renderer::upload_mesh(const FrameInput& frame)
 {
     const Assets& assets = frame.simulation->assets();
     const HairParams& p = frame.params;
-    const std::vector<float> key = {p.head_mesh_scale, p.head_offset.x, p.head_offset.y, p.head_offset.z,
-                                    float(assets.head.positions.size()), float(assets.scalp.positions.size())};
+    const std::vector<float> key = {p.head_mesh_scale,
+                                    p.head_offset.x,
+                                    p.head_offset.y,
+                                    p.head_offset.z,
+                                    float(assets.head.positions.size()),
+                                    float(assets.scalp.positions.size())};
     if (mesh_of_ == assets.head.positions.data() && mesh_key_ == key)
         return;
     mesh_of_ = assets.head.positions.data();
@@ -453,7 +459,8 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, scene_.framebuffer);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.framebuffer);
-        glBlitFramebuffer(0, 0, part.width, part.height, 0, 0, part.width, part.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBlitFramebuffer(0, 0, part.width, part.height, 0, 0, part.width, part.height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
     }
 }
 

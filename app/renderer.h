@@ -15,9 +15,9 @@ namespace coif
 // From where a picture is taken, in the world.
 struct Camera
 {
-    glm::dvec3 target{0.0}; // m
+    glm::dvec3 target{0.0};                   // m
     double yaw = 0.0, pitch = 0.0, fov = 0.5; // rad; yaw 0 looks at the face, fov is vertical
-    double distance = 1.0; // m
+    double distance = 1.0;                    // m
 
     glm::dvec3 position() const;
 };

@@ -113,8 +113,8 @@ int report(const Options& options, const ReportOptions& wanted)
     {
         text = fmt::format("{} on {}, {}: {} guides of {} nodes, {} strands drawn, {} frames\n", style.name(),
                            device.name, motion.name, groom.guides, groom.nodes, groom.drawn.size(), frames);
-        text += fmt::format("  stretch      worst {:.2f} %, mean {:.3f} %\n", 100 * worst.stretch_max,
-                            100 * stretch_mean);
+        text +=
+            fmt::format("  stretch      worst {:.2f} %, mean {:.3f} %\n", 100 * worst.stretch_max, 100 * stretch_mean);
         text += fmt::format("  penetration  guides {:.2f} mm, drawn strands {:.2f} mm\n", 1e3 * worst.penetration_max,
                             1e3 * worst.drawn_penetration_max);
         text += fmt::format("  {}, {} strands reset, {} steps dropped\n", worst.finite ? "finite" : "NOT FINITE",

@@ -2,21 +2,7 @@
 // that the result does not hang on the order of anything.
 //
 // AXIS is 0, 1 or 2; CHUNK voxels along x make a work-item.
-#include "shared.h"
-
-#if CHUNK == 16
-typedef int16 chunk;
-#define LOAD(p) vload16(0, p)
-#define STORE(v, p) vstore16(v, 0, p)
-#elif CHUNK == 8
-typedef int8 chunk;
-#define LOAD(p) vload8(0, p)
-#define STORE(v, p) vstore8(v, 0, p)
-#else
-typedef int chunk;
-#define LOAD(p) (*(p))
-#define STORE(v, p) (*(p) = (v))
-#endif
+#include "chunk.h"
 
 // A third of a sum of voxels, rounded; exact for what is not negative.
 static inline chunk third(chunk sum) { return mul_hi(sum + 1, (chunk)(0x55555556)); }
@@ -28,18 +14,18 @@ kernel void blur_density(global const int* density, global int* blurred)
 #if AXIS == 0
     // Neighbours along x may lie outside the chunk, and outside the row at its ends.
     int row[CHUNK + 2];
-    STORE(LOAD(density + i), row + 1);
+    CHUNK_STORE(CHUNK_LOAD(density + i), row + 1);
     row[0] = x > 0 ? density[i - 1] : 0;
     row[CHUNK + 1] = x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0;
-    const chunk sum = LOAD(row) + LOAD(row + 1) + LOAD(row + 2);
+    const chunk sum = CHUNK_LOAD(row) + CHUNK_LOAD(row + 1) + CHUNK_LOAD(row + 2);
 #else
     const int along = AXIS == 1 ? y : z;
     const int stride = AXIS == 1 ? RESOLUTION : RESOLUTION * RESOLUTION;
-    chunk sum = LOAD(density + i);
+    chunk sum = CHUNK_LOAD(density + i);
     if (along > 0)
-        sum += LOAD(density + i - stride);
+        sum += CHUNK_LOAD(density + i - stride);
     if (along + 1 < RESOLUTION)
-        sum += LOAD(density + i + stride);
+        sum += CHUNK_LOAD(density + i + stride);
 #endif
-    STORE(third(sum), blurred + i);
+    CHUNK_STORE(third(sum), blurred + i);
 }

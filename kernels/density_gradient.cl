@@ -1,20 +1,6 @@
 // Central difference of the density (thesis eq. 5.8 and listing 5.3), in fixed-point units a voxel. Beyond the grid the
 // density is zero. CHUNK voxels along x make a work-item; the three components lie one after the other.
-#include "shared.h"
-
-#if CHUNK == 16
-typedef int16 chunk;
-#define LOAD(p) vload16(0, p)
-#define STORE(v, p) vstore16(convert_float16(v) * 0.5f, 0, p)
-#elif CHUNK == 8
-typedef int8 chunk;
-#define LOAD(p) vload8(0, p)
-#define STORE(v, p) vstore8(convert_float8(v) * 0.5f, 0, p)
-#else
-typedef int chunk;
-#define LOAD(p) (*(p))
-#define STORE(v, p) (*(p) = convert_float(v) * 0.5f)
-#endif
+#include "chunk.h"
 
 kernel void density_gradient(global const int* density, global float* gradient)
 {
@@ -26,15 +12,14 @@ kernel void density_gradient(global const int* density, global float* gradient)
     int row[CHUNK + 2];
     row[0] = x > 0 ? density[i - 1] : 0;
     row[CHUNK + 1] = x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0;
-    for (int k = 0; k < CHUNK; ++k)
-        row[k + 1] = density[i + k];
-    const chunk left = LOAD(row), right = LOAD(row + 2);
-    const chunk below = y > 0 ? LOAD(density + i - RESOLUTION) : zero;
-    const chunk above = y + 1 < RESOLUTION ? LOAD(density + i + RESOLUTION) : zero;
-    const chunk behind = z > 0 ? LOAD(density + i - plane) : zero;
-    const chunk before = z + 1 < RESOLUTION ? LOAD(density + i + plane) : zero;
+    CHUNK_STORE(CHUNK_LOAD(density + i), row + 1);
+    const chunk left = CHUNK_LOAD(row), right = CHUNK_LOAD(row + 2);
+    const chunk below = y > 0 ? CHUNK_LOAD(density + i - RESOLUTION) : zero;
+    const chunk above = y + 1 < RESOLUTION ? CHUNK_LOAD(density + i + RESOLUTION) : zero;
+    const chunk behind = z > 0 ? CHUNK_LOAD(density + i - plane) : zero;
+    const chunk before = z + 1 < RESOLUTION ? CHUNK_LOAD(density + i + plane) : zero;
 
-    STORE(right - left, gradient + i);
-    STORE(above - below, gradient + all + i);
-    STORE(before - behind, gradient + 2 * all + i);
+    CHUNK_STORE_REAL(0.5f * CHUNK_TO_REAL(right - left), gradient + i);
+    CHUNK_STORE_REAL(0.5f * CHUNK_TO_REAL(above - below), gradient + all + i);
+    CHUNK_STORE_REAL(0.5f * CHUNK_TO_REAL(before - behind), gradient + 2 * all + i);
 }

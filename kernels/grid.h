@@ -38,8 +38,7 @@ static inline float corner_weight(GridPoint p, int corner)
 
 static inline int corner_voxel(GridPoint p, int corner)
 {
-    return p.voxel + (corner & 1 ? 1 : 0) + (corner & 2 ? RESOLUTION : 0) +
-           (corner & 4 ? RESOLUTION * RESOLUTION : 0);
+    return p.voxel + (corner & 1 ? 1 : 0) + (corner & 2 ? RESOLUTION : 0) + (corner & 4 ? RESOLUTION * RESOLUTION : 0);
 }
 
 static inline void add_density(global int* density, float x, float y, float z, constant StepInfo* info)
@@ -62,8 +61,8 @@ static inline float3 fetch_gradient(global const float* gradient, float x, float
     {
         const int voxel = corner_voxel(p, corner);
         const int plane = RESOLUTION * RESOLUTION * RESOLUTION;
-        sum += corner_weight(p, corner) *
-               (float3)(gradient[voxel], gradient[voxel + plane], gradient[voxel + 2 * plane]);
+        sum +=
+            corner_weight(p, corner) * (float3)(gradient[voxel], gradient[voxel + plane], gradient[voxel + 2 * plane]);
     }
     return sum;
 }

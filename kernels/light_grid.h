@@ -1,5 +1,6 @@
-// How much hair lies between a point and the light: the optical depth, swept once through the density grid away from the
-// light (Bertails, Menardais, Cani, Wong. A practical self-shadowing algorithm for interactive hair animation. 2005).
+// How much hair lies between a point and the light: the optical depth, swept once through the density grid away from
+// the light (Bertails, Menardais, Cani, Wong. A practical self-shadowing algorithm for interactive hair animation.
+// 2005).
 //
 // The sweep runs along rays, one a voxel of the first slice, so that no ray needs another: along the grid's axis that
 // the light leans to most, slice after slice, each slice moved sideways by the light's slant. A ray that leaves at one

@@ -1,5 +1,5 @@
-// The constraints of position-based dynamics for one strand of each lane (thesis 5.1.2, listing A.1; Mueller, Heidelberger,
-// Hennix, Ratcliff. Position based dynamics. 2007). Nodes 0 and 1 are prescribed and never move.
+// The constraints of position-based dynamics for one strand of each lane (thesis 5.1.2, listing A.1; Mueller,
+// Heidelberger, Hennix, Ratcliff. Position based dynamics. 2007). Nodes 0 and 1 are prescribed and never move.
 #ifndef COIF_PBD_H
 #define COIF_PBD_H
 #include "lanes.h"
@@ -31,9 +31,9 @@ static inline void keep_lengths(real* x, real* y, real* z, real rest, float stre
     }
 }
 
-// Bending as a distance to node 0: where each node is as far from it as on a straight strand, the strand is straight and
-// goes on along the prescribed segment (thesis, angular constraints). Only the outer node moves. bend[i] is the strength
-// after attenuation, eq. 5.6.
+// Bending as a distance to node 0: where each node is as far from it as on a straight strand, the strand is straight
+// and goes on along the prescribed segment (thesis, angular constraints). Only the outer node moves. bend[i] is the
+// strength after attenuation, eq. 5.6.
 static inline void straighten(real* x, real* y, real* z, real rest, float scale, const float* bend)
 {
     for (int i = 2; i < NODES; ++i)

@@ -1,7 +1,7 @@
 // The contract between host and device: read by C++ and by every kernel, depending on neither.
 //
-// Only float, int and float4 cross the border: they have the same size and alignment in C++, in OpenCL C and in a std140
-// block, so one struct serves all three without packing. tests/test_layout.cpp asks all three compilers.
+// Only float, int and float4 cross the border: they have the same size and alignment in C++, in OpenCL C and in a
+// std140 block, so one struct serves all three without packing. tests/test_layout.cpp asks all three compilers.
 #ifndef COIF_SHARED_H
 #define COIF_SHARED_H
 
@@ -49,33 +49,38 @@ typedef struct StepInfo
     float4 head_velocity; // of the head's origin before the substep, m/s
     float4 head_center;   // centre of the scalp's sphere in the head's frame, m
     float4 wind;          // m/s^2; w: its length
-    float4 gust_origin;   // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against the wind
-    float4 grid_corner;   // lowest corner of the grid, m; w: side of a voxel, m
-    float4 sweep;         // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
-                          // per fixed-point unit of density (1/m)
-    float substep;        // duration, s
-    float drag_keep;      // exp(-drag h)
-    float drag_gain;      // integral of exp(-drag t) over the substep, s
-    float gravity;        // m/s^2, along y
-    float stretch;        // of a sweep, eq. 5.5
-    float relax;          // over-relaxation factor of all sweeps but the last
-    float bend;           // of a sweep, eq. 5.5, before attenuation
-    float clearance;      // that drawn strands keep from colliders, m
-    float repulsion;      // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
-    int guides;           // simulated strands, without those that fill the last block
-    int drawn_multi;      // drawn strands mixed of three guides; they come first
-    int drawn;            // all drawn strands
+    float4 gust_origin; // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against
+                        // the wind
+    float4 grid_corner; // lowest corner of the grid, m; w: side of a voxel, m
+    float4 sweep;    // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
+                     // per fixed-point unit of density (1/m)
+    float substep;   // duration, s
+    float drag_keep; // exp(-drag h)
+    float drag_gain; // integral of exp(-drag t) over the substep, s
+    float gravity;   // m/s^2, along y
+    float stretch;   // of a sweep, eq. 5.5
+    float relax;     // over-relaxation factor of all sweeps but the last
+    float bend;      // of a sweep, eq. 5.5, before attenuation
+    float clearance; // that drawn strands keep from colliders, m
+    float repulsion; // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
+    int guides;      // simulated strands, without those that fill the last block
+    int drawn_multi; // drawn strands mixed of three guides; they come first
+    int drawn;       // all drawn strands
     int colliders;
     int teleport;     // the head has just jumped: strands are carried along rigidly
     int last_substep; // of its step: then the nodes are added to the density
-    int sweep_axis; // 0, 1, 2: main axis of the light's sweep
-    int sweep_from; // first slice of the sweep
-    int sweep_sign; // -1 or +1: from slice to slice
+    int body_density; // of what no light passes, in fixed-point units
+    int sweep_axis;   // 0, 1, 2: main axis of the light's sweep
+    int sweep_from;   // first slice of the sweep
+    int sweep_sign;   // -1 or +1: from slice to slice
 } StepInfo;
 
 // One node adds this much to the density, shared out over eight voxels: fixed point, so that the order of the additions
 // does not matter and equal input gives equal bytes.
 #define DENSITY_ONE 4096
+
+// Spheres that a style and its head may have together.
+#define MOST_COLLIDERS 512
 
 // Guides lie in blocks of 16, lane by lane, so that one vector or one work-group moves 16 strands at once.
 #define LANES 16

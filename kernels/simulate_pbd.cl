@@ -124,22 +124,34 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     for (int i = 2; i < NODES; ++i)
         bend[i] = clamp(info->bend / powr((float)(i - 1), params->solver_bending_attenuation), 0.0f, 1.0f);
 
+    // The colliders that these strands can reach.
+    const float reach = (float)NODES * 1.2f; // segments, stretched ones too
+    short near[MOST_COLLIDERS];
+    int near_count = 0;
+    for (int c = 0; c < info->colliders; ++c)
+    {
+        const float4 sphere = colliders[c];
+        const real ax = x[1] - sphere.x, ay = y[1] - sphere.y, az = z[1] - sphere.z, far = sphere.w + reach * rest;
+        if (ANY(ax * ax + ay * ay + az * az < far * far) )
+            near[near_count++] = (short)c;
+    }
+
     for (int sweep = 0; sweep < params->solver_iterations; ++sweep)
     {
         // Over-relaxed but for the last sweep, which leaves no overshoot (accuracy of successive over-relaxation on a
         // chain: Young 1950; the factor is make_step_info's).
         const float strength = sweep + 1 < params->solver_iterations ? info->stretch * info->relax : info->stretch;
-        for (int c = 0; c < info->colliders; ++c)
+        for (int c = 0; c < near_count; ++c)
             for (int i = 2; i < NODES; ++i)
-                push_out(&x[i], &y[i], &z[i], colliders[c]);
+                push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
         keep_lengths(x, y, z, rest, strength, 2);
         keep_lengths(x, y, z, rest, strength, 1);
         if (info->bend > 0.0f)
             straighten(x, y, z, rest, params->solver_bending_scale, bend);
     }
-    for (int c = 0; c < info->colliders; ++c)
+    for (int c = 0; c < near_count; ++c)
         for (int i = 2; i < NODES; ++i)
-            push_out(&x[i], &y[i], &z[i], colliders[c]);
+            push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
 
     // A strand that is no longer finite starts again from its rest shape; its neighbours do not notice.
     whole bad = (whole)(0);

@@ -1,7 +1,7 @@
 // The curve that is drawn through a strand's nodes: smoothing, waves, and what differs from strand to strand. Read by
 // OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those names), so that the two never
-// hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more. No local is const, which in GLSL
-// 1.50 asks for a constant expression.
+// hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more. No local is const, which in
+// GLSL 1.50 asks for a constant expression.
 #ifndef COIF_STRAND_CURVE_H
 #define COIF_STRAND_CURVE_H
 

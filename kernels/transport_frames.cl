@@ -10,7 +10,7 @@
 static inline float3 unit_or(float3 v, float3 otherwise)
 {
     const float squared = dot(v, v);
-    return squared > 1e-20f ? v / sqrt(squared) : otherwise;
+    return squared > 1e-20f ? v * (1.0f / sqrt(squared)) : otherwise;
 }
 
 kernel void transport_frames(global const float4* drawn_position, global const DrawnStrand* strands,

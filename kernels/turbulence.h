@@ -17,10 +17,7 @@ static inline bits gust_hash(whole x, whole y, whole z, uint component)
 }
 
 // Ten bits of a hash as a number in [-1, 1].
-static inline real gust_unit(bits h, int shift)
-{
-    return TO_REAL((h >> shift) & 1023u) * (2.0f / 1023.0f) - 1.0f;
-}
+static inline real gust_unit(bits h, int shift) { return TO_REAL((h >> shift) & 1023u) * (2.0f / 1023.0f) - 1.0f; }
 
 static inline real gust_corner(whole x, whole y, whole z, real dx, real dy, real dz, uint component)
 {
@@ -42,7 +39,8 @@ static inline real gust(real x, real y, real z, uint component)
     {
         const int cx = c & 1, cy = (c >> 1) & 1, cz = c >> 2;
         const real weight = (cx ? wx : 1.0f - wx) * (cy ? wy : 1.0f - wy) * (cz ? wz : 1.0f - wz);
-        sum += weight * gust_corner(ix + cx, iy + cy, iz + cz, dx - (float)cx, dy - (float)cy, dz - (float)cz, component);
+        sum +=
+            weight * gust_corner(ix + cx, iy + cy, iz + cz, dx - (float)cx, dy - (float)cy, dz - (float)cz, component);
     }
     return sum;
 }

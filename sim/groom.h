@@ -19,9 +19,9 @@ struct Groom
     std::vector<float> segment_length; // [block][lane], m
     std::vector<DrawnStrand> drawn;    // mixed ones first
     int drawn_multi = 0;
-    float longest = 0.0f;      // strand, m
-    float extent = 0.0f;       // of the scalp, m
-    glm::vec3 center{0.0f};    // of the scalp's sphere, in the head's frame, m
+    float longest = 0.0f;   // strand, m
+    float extent = 0.0f;    // of the scalp, m
+    glm::vec3 center{0.0f}; // of the scalp's sphere, in the head's frame, m
 };
 
 // Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones

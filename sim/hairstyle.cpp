@@ -137,9 +137,8 @@ static Collider read_collider(const fs::path& file, const toml::node& entry)
         {
             v[0] = value.value<double>().value_or(NAN);
             if (!value.is_number() || !(v[0] >= 0.001 && v[0] <= 100.0))
-                throw at(value.is_number()
-                             ? fmt::format("collider.radius is {}, but must lie in [0.001, 100] m", v[0])
-                             : fmt::format("collider.radius must be a number, not {}", type_name(value)));
+                throw at(value.is_number() ? fmt::format("collider.radius is {}, but must lie in [0.001, 100] m", v[0])
+                                           : fmt::format("collider.radius must be a number, not {}", type_name(value)));
             collider.radius = float(v[0]);
             has_radius = true;
         }
@@ -163,8 +162,9 @@ static std::vector<Collider> read_colliders(const fs::path& file, const toml::no
     const toml::array* list = node.as_array();
     if (!list)
         throw fail("{}: collider must be written as [[collider]] tables", place(file, node.source()));
-    if (list->size() > 1000)
-        throw fail("{}: {} colliders are more than the 1000 that coif takes", place(file, node.source()), list->size());
+    if (list->size() > MOST_COLLIDERS / 2)
+        throw fail("{}: {} colliders are more than the {} that coif takes", place(file, node.source()), list->size(),
+                   MOST_COLLIDERS / 2);
     std::vector<Collider> colliders;
     for (const toml::node& entry : *list)
         colliders.push_back(read_collider(file, entry));
@@ -314,7 +314,8 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
     }
     case Kind::TEXT:
-        return toml_string(*reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&style.host) + info.offset));
+        return toml_string(
+            *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&style.host) + info.offset));
     case Kind::LIST:
         return fmt::format("{} of them", style.host.colliders.size());
     }

@@ -152,8 +152,7 @@ static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::ma
             const aiFace& face = part.mFaces[f];
             if (face.mNumIndices != 3)
                 continue; // points and lines, which assimp sorts out beside the triangles
-            mesh.triangles.push_back(
-                {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+            mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
         }
         if (mesh.triangles.size() > 5'000'000 || mesh.positions.size() > 15'000'000)
             throw fail("{}: has more than the five million triangles that coif takes; simplify it", file);

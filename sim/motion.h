@@ -12,9 +12,9 @@ namespace coif
 // Where the head is and what the wind adds. Positions in double: a float loses millimetres at a kilometre.
 struct Pose
 {
-    glm::dvec3 origin{0.0};                // m, world
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0};   // head to world
-    glm::dvec3 wind{0.0};                  // m/s^2, on top of the style's
+    glm::dvec3 origin{0.0};              // m, world
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0}; // head to world
+    glm::dvec3 wind{0.0};                // m/s^2, on top of the style's
 };
 
 // A script for head and wind, read from assets/motions/*.toml. Each line of it moves one channel; lines add up.

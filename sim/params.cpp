@@ -13,31 +13,13 @@ namespace coif
 {
 
 #define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
-    {#group,                                                                                                           \
-     #name,                                                                                                            \
-     Kind::kind,                                                                                                       \
-     Scope::scope,                                                                                                     \
-     Effect::effect,                                                                                                   \
-     offsetof(HairParams, group##_##name),                                                                             \
-     lo,                                                                                                               \
-     hi,                                                                                                               \
-     unit,                                                                                                             \
-     labels,                                                                                                           \
-     help},
+    {#group, #name, Kind::kind, Scope::scope, Effect::effect, offsetof(HairParams, group##_##name), lo,                \
+     hi,     unit,  labels,     help},
 #define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
 #define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
 #define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
-    {#group,                                                                                                           \
-     #name,                                                                                                            \
-     Kind::kind,                                                                                                       \
-     Scope::scope,                                                                                                     \
-     Effect::effect,                                                                                                   \
-     COIF_OFFSET_##kind(group, name),                                                                                  \
-     0.0f,                                                                                                             \
-     0.0f,                                                                                                             \
-     "",                                                                                                               \
-     "",                                                                                                               \
-     help},
+    {#group, #name, Kind::kind, Scope::scope, Effect::effect, COIF_OFFSET_##kind(group, name), 0.0f,                   \
+     0.0f,   "",    "",         help},
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof" // HostParams holds strings; its offsets are well defined here
@@ -190,9 +172,9 @@ std::string glsl_params_block()
     for (const ParamInfo& info : param_table())
         if (!info.on_host())
             text += fmt::format("    {} {}_{};\n",
-                                info.components() == 3                                      ? "vec4"
+                                info.components() == 3                                ? "vec4"
                                 : info.kind == Kind::INT || info.kind == Kind::CHOICE ? "int"
-                                                                                            : "float",
+                                                                                      : "float",
                                 info.group, info.name);
     return text + "} params;\n";
 }

@@ -15,9 +15,9 @@ namespace coif
 // A sphere that hair slides over.
 struct Collider
 {
-    glm::vec3 center{0.0f};  // m, in the head's frame or in the world
-    float radius = 0.05f;    // m
-    bool on_head = false;    // moves with the head
+    glm::vec3 center{0.0f}; // m, in the head's frame or in the world
+    float radius = 0.05f;   // m
+    bool on_head = false;   // moves with the head
     bool operator==(const Collider&) const = default;
 };
 

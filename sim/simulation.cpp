@@ -32,8 +32,8 @@ Assets load_assets(const Hairstyle& style)
         }
     };
     if (style.host.scalp_mesh.empty())
-        throw fail("{}: scalp.mesh must name an OBJ", style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh")
-                                                                                         : style.name());
+        throw fail("{}: scalp.mesh must name an OBJ",
+                   style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh") : style.name());
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
@@ -154,9 +154,6 @@ void Simulation::settle(double seconds)
     motion_ = motion;
 }
 
-void Simulation::reset()
-{
-    solver_->reset(solver_->head());
-}
+void Simulation::reset() { solver_->reset(solver_->head()); }
 
 } // namespace coif

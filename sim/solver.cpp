@@ -43,6 +43,7 @@ void Solver::set_params(const HairParams& params)
     const size_t voxels = grid_voxels(params_);
     buffers_["density"] = allocate(device_, voxels * sizeof(int), "the density grid");
     buffers_["blurred"] = allocate(device_, voxels * sizeof(int), "the density grid");
+    buffers_["occupied"] = allocate(device_, voxels * sizeof(int), "the density grid");
     buffers_["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
     buffers_["depth"] = allocate(device_, voxels * sizeof(float), "the light's grid");
     for (const char* name : {"density", "blurred", "depth"})
@@ -127,9 +128,8 @@ void Solver::reset(const Pose& head)
 
 Kernel& Solver::kernel(const std::string& file, const std::string& extra)
 {
-    const std::string options =
-        fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={} -D CHUNK={} {}", groom_.nodes, params_.grid_resolution,
-                    device_.width, chunk(device_, params_), extra);
+    const std::string options = fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={} -D CHUNK={} {}", groom_.nodes,
+                                            params_.grid_resolution, device_.width, chunk(device_, params_), extra);
     const auto [found, fresh] = kernels_.try_emplace(file + " " + options);
     if (fresh)
         try
@@ -221,7 +221,15 @@ void Solver::draw()
     upload(info);
     const std::string shadow = has_shadow() ? "-D SHADOW" : "";
     if (has_shadow())
-        launch("transmittance", "", size_t(params_.grid_resolution) * size_t(params_.grid_resolution));
+    {
+        const size_t side = size_t(params_.grid_resolution);
+        device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
+                                        grid_voxels(params_) * sizeof(int));
+        if (!colliders_.empty())
+            launches_.emplace_back("add_bodies", run(device_, kernel("add_bodies", ""), buffers_,
+                                                     cl::NDRange(side, side, colliders_.size())));
+        launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
+    }
     launch("interpolate_multi", shadow, size_t(groom_.drawn_multi));
     launch("interpolate_single", shadow, groom_.drawn.size() - size_t(groom_.drawn_multi));
     launch("transport_frames", "", groom_.drawn.size());

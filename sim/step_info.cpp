@@ -12,11 +12,11 @@
 namespace coif
 {
 
-static constexpr double kTeleportDistance = 0.25;                     // m in a substep
-static constexpr double kTeleportAngle = std::numbers::pi / 2.0;      // rad in a substep
-static constexpr double kGustCell = 0.15, kGustPeriod = 256.0;        // m; cells: kernels/turbulence.h
-static constexpr double kGustDrift = 0.3;                             // s: gusts travel as fast as wind drives in this time
-static constexpr float kClearance = 0.001f;                           // m that hair keeps from colliders
+static constexpr double kTeleportDistance = 0.25;                // m in a substep
+static constexpr double kTeleportAngle = std::numbers::pi / 2.0; // rad in a substep
+static constexpr double kGustCell = 0.15, kGustPeriod = 256.0;   // m; cells: kernels/turbulence.h
+static constexpr double kGustDrift = 0.3;                        // s: gusts travel as fast as wind drives in this time
+static constexpr float kClearance = 0.001f;                      // m that hair keeps from colliders
 
 static float4 row(const glm::dmat3& m, int i) { return F4(float(m[0][i]), float(m[1][i]), float(m[2][i]), 0.0f); }
 static float4 vector4(glm::dvec3 v, double w) { return F4(float(v.x), float(v.y), float(v.z), float(w)); }
@@ -35,13 +35,16 @@ static void set_sweep(StepInfo& info, const HairParams& params, const Groom& gro
     info.sweep_axis = axis;
     info.sweep_from = light[axis] > 0.0 ? params.grid_resolution - 1 : 0;
     info.sweep_sign = light[axis] > 0.0 ? -1 : 1;
-    // A guide's node stands for a segment of every drawn strand that follows it. Mean projected area of a fibre that may
-    // lie any way: pi / 4 of its length times its width.
+    // A guide's node stands for a segment of every drawn strand that follows it. Mean projected area of a fibre that
+    // may lie any way: pi / 4 of its length times its width.
     const double segment = double(groom.longest) * params.strand_spacing / (groom.nodes - 2);
-    const double area = std::numbers::pi / 4.0 * segment * params.look_width * double(groom.drawn.size()) /
-                        std::max(groom.guides, 1);
+    const double area =
+        std::numbers::pi / 4.0 * segment * params.look_width * double(groom.drawn.size()) / std::max(groom.guides, 1);
     const double extinction = params.look_self_shadow * area / (DENSITY_ONE * voxel * voxel * voxel);
-    info.sweep = vector4({-light[axis == 0 ? 1 : 0] / lean, -light[axis == 2 ? 1 : 2] / lean, voxel / lean}, extinction);
+    info.sweep =
+        vector4({-light[axis == 0 ? 1 : 0] / lean, -light[axis == 2 ? 1 : 2] / lean, voxel / lean}, extinction);
+    // Three units of optical depth a voxel stop all but 5 % of the light.
+    info.body_density = extinction > 0.0 ? int(std::min(3.0 / (extinction * voxel), 1e8)) : 0;
 }
 
 StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
@@ -84,13 +87,15 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.stretch = float(1.0 - std::pow(1.0 - double(params.solver_stretching), 1.0 / sweeps)); // eq. 5.5
     info.bend = float(1.0 - std::pow(1.0 - double(params.solver_bending), 1.0 / sweeps));
     const double links = groom.nodes - 2;
-    info.relax = params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;
+    info.relax =
+        params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;
     info.clearance = kClearance;
     // Repulsion is the relative change of the density over a tenth of the scalp's extent. The density it is relative to
     // is that of all nodes spread over the scalp's cube, so neither grid nor number of guides changes the force.
-    const double spread = double(groom.extent) * groom.extent * groom.extent / (double(groom.guides) * (groom.nodes - 1));
-    info.repulsion = float(params.forces_repulsion * spread * 0.1 * groom.extent /
-                           (DENSITY_ONE * voxel * voxel * voxel * voxel));
+    const double spread =
+        double(groom.extent) * groom.extent * groom.extent / (double(groom.guides) * (groom.nodes - 1));
+    info.repulsion =
+        float(params.forces_repulsion * spread * 0.1 * groom.extent / (DENSITY_ONE * voxel * voxel * voxel * voxel));
 
     info.guides = groom.guides;
     info.drawn_multi = groom.drawn_multi;

@@ -29,7 +29,8 @@ std::vector<float> wave_table(const HairParams& params)
         {
             const double wave = double(i) / kWaveSamples * kPeriods;
             const int channel = 1000 + 2 * side;
-            const double height = 1.0 - 0.5 * randomness[side] * (1.0 + wander(params.interpolation_seed, wave, channel));
+            const double height =
+                1.0 - 0.5 * randomness[side] * (1.0 + wander(params.interpolation_seed, wave, channel));
             const double lead = 0.4 * randomness[side] * wander(params.interpolation_seed, wave, channel + 1);
             table.push_back(float(height * std::sin(2.0 * std::numbers::pi * (wave + lead + 0.25 * side))));
         }
