@@ -1,5 +1,368 @@
 #include "app/editor.h"
+
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <backends/imgui_impl_sdl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <ctime>
+
 namespace coif
 {
-int edit(const Options&) { return 0; }
+
+static constexpr int kPanelWidth = 400;           // pixels of the window
+static constexpr int kMostSteps = 4;              // in one frame; what is over is dropped and counted
+static constexpr double kSettle = 1.5;            // s that a style lives before it is first seen
+static constexpr Uint32 kIdleWait = 50;           // ms between looks at a paused window
+static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
+
+template <typename Action> void Editor::guarded(Action&& action)
+{
+    try
+    {
+        action();
+    }
+    catch (const Error& e)
+    {
+        message_ = e.what();
+        message_is_error_ = true;
+    }
+}
+
+Editor::Editor(const Options& options)
+    : window_(kWidth, kHeight, Window::SHOWN), device_(open_device(options)), style_(load_style(options))
+{
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // nothing is written that was not asked for
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().FrameRounding = 3.0f;
+    ImGui::GetStyle().WindowBorderSize = 0.0f;
+    for (const char* font : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
+        if (std::filesystem::exists(font))
+        {
+            ImGui::GetIO().Fonts->AddFontFromFileTTF(font, 14.0f);
+            break;
+        }
+    ImGui_ImplSDL2_InitForOpenGL(window_.sdl(), window_.context());
+    ImGui_ImplOpenGL3_Init("#version 150");
+    renderer_ = std::make_unique<Renderer>(data_folder() / "shaders");
+    simulation_ = std::make_unique<Simulation>(device_, style_);
+    simulation_->settle(kSettle);
+    // --set changes the style on screen, not what is on disk.
+    saved_ = options.sets.empty() ? style_ : load_hairstyle(style_.file);
+    camera_ = camera_of(style_.params);
+    apply();
+    SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
+    last_tick_ = SDL_GetPerformanceCounter();
+}
+
+Editor::~Editor()
+{
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplSDL2_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Editor::apply()
+{
+    guarded([&] { simulation_->set_style(style_); });
+    style_ = simulation_->style(); // the last good one, if that failed
+    unsaved_ = false;
+    for (const ParamInfo& info : param_table())
+        unsaved_ |= !same_value(style_, saved_, info);
+    SDL_SetWindowTitle(window_.sdl(), fmt::format("{}{} - coif", style_.name(), unsaved_ ? " *" : "").c_str());
+    redraw_ = true;
+}
+
+void Editor::take(const std::filesystem::path& file)
+{
+    guarded(
+        [&]
+        {
+            const Hairstyle fresh = load_hairstyle(file);
+            simulation_->set_style(fresh, true);
+            style_ = saved_ = fresh;
+            simulation_->play(std::nullopt);
+            simulation_->reset();
+            simulation_->settle(kSettle);
+            const glm::dvec3 head = simulation_->solver().head().origin;
+            camera_ = camera_of(style_.params);
+            camera_.target += head;
+            jumped_ = simulation_->jumped();
+            message_.clear();
+        });
+    apply();
+}
+
+void Editor::open(const std::filesystem::path& file) { carry_out(file); }
+
+// Does it at once, or asks first what is to become of unsaved changes.
+void Editor::carry_out(const Intent& intent)
+{
+    if (unsaved_)
+        intent_ = intent;
+    else if (const auto* file = std::get_if<std::filesystem::path>(&intent))
+        take(*file);
+    else if (std::holds_alternative<Close>(intent))
+        closed_ = true;
+}
+
+bool Editor::save(const std::filesystem::path& file)
+{
+    bool done = false;
+    guarded(
+        [&]
+        {
+            save_hairstyle(style_, file);
+            saved_ = style_;
+            simulation_->set_style(style_);
+            message_ = "saved " + file.string();
+            message_is_error_ = false;
+            done = true;
+        });
+    apply();
+    return done;
+}
+
+std::filesystem::path Editor::screenshot()
+{
+    std::filesystem::path file;
+    for (int n = 1; file.empty() || std::filesystem::exists(file); ++n)
+        file = fmt::format("{}-{:03}.png", style_.name(), n);
+    int width = view_width_, height = view_height_;
+    std::sscanf(screenshot_size_.c_str(), "%dx%d", &width, &height);
+    guarded(
+        [&]
+        {
+            FrameInput input = frame_input(*simulation_, camera_);
+            input.samples = 16;
+            input.transparent = transparent_;
+            save_png(file, renderer_->picture(input, width, height));
+            message_ = "wrote " + std::filesystem::absolute(file).string();
+            message_is_error_ = false;
+        });
+    redraw_ = true;
+    return message_is_error_ ? std::filesystem::path() : file;
+}
+
+void Editor::play(const std::string& motion)
+{
+    guarded(
+        [&]
+        {
+            simulation_->play(find_motion(motion));
+            paused_ = false;
+        });
+}
+
+void Editor::handle_key(const SDL_Keysym& key)
+{
+    const bool control = key.mod & KMOD_CTRL, shift = key.mod & KMOD_SHIFT;
+    redraw_ = true;
+    if (control && key.sym == SDLK_s)
+    {
+        if (shift || style_.file.empty())
+            ask_save_as_ = true;
+        else
+            save(style_.file);
+        return;
+    }
+    if (control && key.sym == SDLK_o)
+        ask_open_ = true;
+    else if (control && key.sym == SDLK_q)
+        carry_out(Close{});
+    if (control)
+        return;
+    const std::vector<std::string> motions = motion_names();
+    const int number = int(key.sym) - SDLK_1;
+    if (number >= 0 && number < int(std::min<size_t>(motions.size(), 9)))
+        play(motions[size_t(number)]);
+    switch (key.sym)
+    {
+    case SDLK_SPACE:
+        paused_ = !paused_;
+        break;
+    case SDLK_PERIOD:
+        paused_ = step_once_ = true;
+        break;
+    case SDLK_r:
+        simulation_->reset();
+        break;
+    case SDLK_p:
+    case SDLK_F12:
+        screenshot();
+        break;
+    case SDLK_f:
+        frame_head(camera_, *simulation_);
+        break;
+    case SDLK_g:
+        style_.params.render_show = (style_.params.render_show + 1) % 3;
+        apply();
+        break;
+    case SDLK_k:
+        keep_camera(camera_, style_.params);
+        apply();
+        break;
+    case SDLK_TAB:
+        show_panel_ = !show_panel_;
+        break;
+    case SDLK_h:
+    case SDLK_F1:
+        show_help_ = !show_help_;
+        break;
+    case SDLK_ESCAPE:
+        simulation_->play(std::nullopt);
+        show_help_ = false;
+        break;
+    default:
+        break;
+    }
+}
+
+void Editor::handle_mouse(const SDL_Event& event)
+{
+    if (event.type == SDL_MOUSEBUTTONDOWN && held_.what == Grab::NONE)
+    {
+        const double x = event.button.x, y = event.button.y;
+        const SDL_Keymod mod = SDL_GetModState();
+        if (event.button.button == SDL_BUTTON_LEFT && event.button.clicks == 2)
+            frame_head(camera_, *simulation_);
+        else if (event.button.button == SDL_BUTTON_LEFT)
+            held_ = grab(*simulation_, camera_, x, y, view_width_, view_height_, mod & (KMOD_CTRL | KMOD_SHIFT));
+        else
+            held_.what = event.button.button == SDL_BUTTON_RIGHT ? Grab::ORBIT : Grab::PAN;
+    }
+    else if (event.type == SDL_MOUSEBUTTONUP)
+        held_.what = Grab::NONE;
+    else if (event.type == SDL_MOUSEWHEEL)
+        zoom(camera_, event.wheel.y);
+    else if (event.type == SDL_MOUSEMOTION)
+    {
+        const double x = event.motion.x, y = event.motion.y;
+        if (held_.what == Grab::ORBIT)
+            orbit(camera_, event.motion.xrel, event.motion.yrel);
+        else if (held_.what == Grab::PAN)
+            pan(camera_, event.motion.xrel, event.motion.yrel, view_height_);
+        else if (held_.what == Grab::COLLIDER)
+        {
+            style_.host.colliders.at(held_.collider).center =
+                dragged_collider(held_, *simulation_, camera_, x, y, view_width_, view_height_);
+            apply();
+        }
+        else if (held_.what != Grab::NONE)
+            hand_ = dragged_head(held_, camera_, x, y, view_width_, view_height_);
+    }
+    redraw_ = true;
+}
+
+void Editor::handle(const SDL_Event& event)
+{
+    ImGui_ImplSDL2_ProcessEvent(&event);
+    const ImGuiIO& io = ImGui::GetIO();
+    redraw_ = true;
+    switch (event.type)
+    {
+    case SDL_QUIT:
+        carry_out(Close{});
+        break;
+    case SDL_WINDOWEVENT:
+        if (event.window.event == SDL_WINDOWEVENT_CLOSE)
+            carry_out(Close{});
+        break;
+    case SDL_DROPFILE:
+        open(event.drop.file);
+        SDL_free(event.drop.file);
+        break;
+    case SDL_KEYDOWN:
+        if (!io.WantTextInput)
+            handle_key(event.key.keysym);
+        break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEWHEEL:
+        if (!io.WantCaptureMouse)
+            handle_mouse(event);
+        break;
+    case SDL_MOUSEBUTTONUP:
+    case SDL_MOUSEMOTION:
+        if (held_.what != Grab::NONE)
+            handle_mouse(event);
+        break;
+    default:
+        break;
+    }
+}
+
+void Editor::advance(double seconds)
+{
+    const bool played = simulation_->playing();
+    if (step_once_)
+        simulation_->step(hand_);
+    else if (!paused_)
+        simulation_->advance(seconds, hand_, kMostSteps);
+    if (played && !simulation_->playing())
+        held_.what = Grab::NONE; // the script has moved what the hand held
+    if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
+        hand_ = simulation_->hand();
+    camera_.target += simulation_->jumped() - jumped_; // a teleport takes the view along
+    jumped_ = simulation_->jumped();
+    redraw_ |= step_once_ || !paused_;
+    step_once_ = false;
+}
+
+bool Editor::frame()
+{
+    SDL_Event event;
+    if (paused_ && !redraw_ && SDL_WaitEventTimeout(&event, kIdleWait))
+        handle(event);
+    while (SDL_PollEvent(&event))
+        handle(event);
+    const Uint64 tick = SDL_GetPerformanceCounter();
+    const double seconds = double(tick - last_tick_) / double(SDL_GetPerformanceFrequency());
+    last_tick_ = tick;
+    advance(seconds);
+    if (closed_ || !redraw_)
+        return !closed_;
+    redraw_ = false;
+    frame_ms_ = frames_++ == 0 ? 1e3 * seconds : frame_ms_ + 0.1 * (1e3 * seconds - frame_ms_);
+
+    int width = 0, height = 0, pixels_wide = 0, pixels_high = 0;
+    SDL_GetWindowSize(window_.sdl(), &width, &height);
+    SDL_GL_GetDrawableSize(window_.sdl(), &pixels_wide, &pixels_high);
+    view_width_ = std::max(1, width - (show_panel_ ? kPanelWidth : 0));
+    view_height_ = std::max(1, height);
+
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplSDL2_NewFrame();
+    ImGui::NewFrame();
+    draw_ui(); // may change the style, which shows in this very frame
+    ImGui::Render();
+
+    guarded(
+        [&]
+        {
+            simulation_->solver().draw();
+            pass_ms_ = simulation_->solver().take_times();
+            if (frames_ % 8 == 1)
+                health_ = measure_health(simulation_->solver(), style_.params, false);
+            renderer_->show(frame_input(*simulation_, camera_), view_width_ * pixels_wide / std::max(width, 1),
+                            pixels_high);
+        });
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    SDL_GL_SwapWindow(window_.sdl());
+    return !closed_;
+}
+
+int edit(const Options& options)
+{
+    Editor editor(options);
+    while (editor.frame())
+        ;
+    return 0;
+}
+
 } // namespace coif

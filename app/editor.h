@@ -1,10 +1,92 @@
 #pragma once
 #include "app/options.h"
+#include "app/panel.h"
+#include "app/renderer.h"
+#include "app/viewport.h"
+#include "sim/health.h"
+
+#include <SDL.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <variant>
 
 namespace coif
 {
 
 // Opens the editor's window on a hairstyle and runs until it is closed. Returns the exit status.
 int edit(const Options& options);
+
+// The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
+// drive it the same way as edit() does.
+class Editor
+{
+  public:
+    explicit Editor(const Options& options); // throws Error
+    ~Editor();
+    Editor(const Editor&) = delete;
+
+    bool frame(); // false when the window has been closed for good
+
+    // What a menu, a key or a dropped file asks for. Errors come to the screen, and the last good state stays.
+    void open(const std::filesystem::path& file); // asks first if there are unsaved changes
+    bool save(const std::filesystem::path& file);
+    std::filesystem::path screenshot(); // returns the file written, or an empty path
+    void play(const std::string& motion);
+
+    const Simulation& simulation() const { return *simulation_; }
+    const Hairstyle& style() const { return style_; }
+    const Camera& camera() const { return camera_; }
+    const PanelState& panel() const { return panel_; }
+    bool unsaved() const { return unsaved_; }
+    bool paused() const { return paused_; }
+    double frame_ms() const { return frame_ms_; }
+    const std::string& message() const { return message_; }
+    SDL_Window* window() const { return window_.sdl(); }
+    int view_width() const { return view_width_; }
+
+  private:
+    struct Close
+    {
+    };
+    using Intent = std::variant<std::monostate, Close, std::filesystem::path>; // what waits for unsaved changes
+
+    void handle(const SDL_Event& event);
+    void handle_key(const SDL_Keysym& key);
+    void handle_mouse(const SDL_Event& event);
+    void advance(double seconds);
+    void draw_ui();
+    void draw_tools();
+    void draw_dialogs();
+    void draw_status();
+    void take(const std::filesystem::path& file); // opens without asking
+    void apply();                                 // what changed in style_
+    void carry_out(const Intent& intent);
+    template <typename Action> void guarded(Action&& action); // errors become the message
+
+    Window window_;
+    Device device_;
+    Hairstyle style_, saved_; // as edited; as last read or written
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<Renderer> renderer_;
+    Camera camera_;
+    PanelState panel_;
+    Grab held_;
+    Pose hand_; // where the mouse has brought the head
+    PassTimes pass_ms_;
+    Health health_;
+    std::string message_, save_as_;
+    std::string screenshot_size_ = "as shown";
+    Intent intent_;
+    bool unsaved_ = false, paused_ = false, step_once_ = false, redraw_ = true, closed_ = false;
+    bool show_panel_ = true, show_help_ = false, ask_save_as_ = false, ask_open_ = false, transparent_ = false;
+    bool message_is_error_ = false;
+    double frame_ms_ = 0.0;
+    Uint64 last_tick_ = 0;
+    long frames_ = 0;
+    int view_width_ = 1, view_height_ = 1; // of the picture, beside the panel, in window units
+    glm::dvec3 jumped_{0.0};
+};
 
 } // namespace coif

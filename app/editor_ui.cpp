@@ -1,0 +1,278 @@
+// What the editor draws over its picture: tools, parameters, dialogs, figures.
+#include "app/editor.h"
+#include "sim/error.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace coif
+{
+
+static const char kHelp[] = "drag the head         move it\n"
+                            "ctrl-drag the head    turn it\n"
+                            "drag a sphere         move it\n"
+                            "drag elsewhere        orbit (right button: anywhere)\n"
+                            "middle drag           pan\n"
+                            "wheel                 zoom\n"
+                            "double click, f       frame the head\n"
+                            "space                 pause, go on\n"
+                            ".                     one step\n"
+                            "r                     reset the hair\n"
+                            "1 to 9                play a motion\n"
+                            "esc                   stop the motion\n"
+                            "g                     drawn strands, guides, both\n"
+                            "k                     keep the camera in the style\n"
+                            "p, F12                screenshot\n"
+                            "ctrl-s                save\n"
+                            "ctrl-shift-s          save as\n"
+                            "ctrl-o                open\n"
+                            "tab                   hide the panel\n"
+                            "h, F1                 this list\n"
+                            "ctrl-q                close";
+
+void Editor::draw_ui()
+{
+    if (show_panel_)
+    {
+        ImGui::SetNextWindowPos(ImVec2(float(view_width_), 0.0f));
+        ImGui::SetNextWindowSize(ImVec2(ImGui::GetIO().DisplaySize.x - float(view_width_), float(view_height_)));
+        ImGui::Begin("panel", nullptr,
+                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+        draw_tools();
+        ImGui::Separator();
+        ImGui::BeginChild("parameters");
+        if (draw_params_panel(style_, panel_))
+            apply();
+        ImGui::EndChild();
+        ImGui::End();
+    }
+    draw_status();
+    draw_dialogs();
+}
+
+void Editor::draw_tools()
+{
+    ImGui::SetNextItemWidth(150.0f);
+    if (ImGui::BeginCombo("##open", style_.name().c_str()))
+    {
+        for (const std::filesystem::path& file : preset_files())
+            if (ImGui::Selectable(file.stem().string().c_str(), file == style_.file))
+                open(file);
+        ImGui::EndCombo();
+    }
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("open a preset; or drop a file onto the window");
+    ImGui::SameLine();
+    if (ImGui::Button(unsaved_ ? "Save *" : "Save") && !style_.file.empty())
+        save(style_.file);
+    ImGui::SameLine();
+    if (ImGui::Button("Save as"))
+        ask_save_as_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Open"))
+        ask_open_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("?"))
+        show_help_ = !show_help_;
+
+    if (ImGui::Button(paused_ ? "Play" : "Pause"))
+        paused_ = !paused_;
+    ImGui::SameLine();
+    if (ImGui::Button("Step"))
+        paused_ = step_once_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Reset hair"))
+        simulation_->reset();
+    ImGui::SameLine();
+    if (ImGui::Button("Keep camera"))
+    {
+        keep_camera(camera_, style_.params);
+        apply();
+    }
+    int key = 0;
+    for (const std::string& motion : motion_names())
+    {
+        const bool on = simulation_->motion_name() == motion;
+        if (on)
+            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        if (key++)
+            ImGui::SameLine(0.0f, 3.0f);
+        if (ImGui::SmallButton(motion.c_str()))
+            play(motion);
+        if (on)
+            ImGui::PopStyleColor();
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("key %d", key);
+    }
+    if (ImGui::Button("Screenshot"))
+        screenshot();
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(110.0f);
+    if (ImGui::BeginCombo("##size", screenshot_size_.c_str()))
+    {
+        for (const char* size : {"as shown", "1920x1080", "2048x2048", "3840x2160", "8192x8192"})
+            if (ImGui::Selectable(size, screenshot_size_ == size))
+                screenshot_size_ = size;
+        ImGui::EndCombo();
+    }
+    ImGui::SameLine();
+    ImGui::Checkbox("transparent", &transparent_);
+}
+
+void Editor::draw_status()
+{
+    const Solver& solver = simulation_->solver();
+    const Groom& groom = solver.groom();
+    const ImGuiWindowFlags plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
+    ImGui::SetNextWindowBgAlpha(0.35f);
+    ImGui::Begin("figures", nullptr, plain);
+    ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3), paused_ ? ", paused" : "");
+    ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
+    ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max, 100.0 * health_.stretch_mean);
+    if (simulation_->dropped() > 0)
+        ImGui::Text("%ld steps dropped", simulation_->dropped());
+    double sum = 0.0;
+    for (const auto& [pass, ms] : pass_ms_)
+    {
+        ImGui::TextDisabled("%-20s %6.2f ms", pass.c_str(), ms);
+        sum += ms;
+    }
+    ImGui::TextDisabled("%-20s %6.2f ms", "all passes", sum);
+    ImGui::TextDisabled("%s", device_.name.c_str());
+    ImGui::TextDisabled("%s", renderer_->name().c_str());
+    ImGui::End();
+
+    if (!message_.empty())
+    {
+        ImGui::SetNextWindowPos(ImVec2(8.0f, float(view_height_) - 8.0f), 0, ImVec2(0.0f, 1.0f));
+        ImGui::SetNextWindowSizeConstraints(ImVec2(50.0f, 0.0f), ImVec2(float(view_width_) - 16.0f, 400.0f));
+        ImGui::Begin("message", nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove);
+        if (ImGui::SmallButton("x"))
+            message_.clear();
+        ImGui::SameLine();
+        ImGui::PushTextWrapPos(float(view_width_) - 60.0f);
+        ImGui::TextColored(message_is_error_ ? ImVec4(1.0f, 0.5f, 0.4f, 1.0f) : ImVec4(0.7f, 0.9f, 0.7f, 1.0f), "%s",
+                           message_.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::End();
+    }
+    if (show_help_)
+    {
+        ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), 0.5f * float(view_height_)), 0, ImVec2(0.5f, 0.5f));
+        ImGui::Begin("keys and mouse", &show_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+        // Two columns: the font need not be of one width.
+        ImGui::BeginTable("keys", 2);
+        for (const char* line = kHelp; line;)
+        {
+            const char* end = strchr(line, '\n');
+            const std::string text(line, end ? size_t(end - line) : strlen(line));
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(text.substr(0, 22).c_str());
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(text.substr(22).c_str());
+            line = end ? end + 1 : nullptr;
+        }
+        ImGui::EndTable();
+        ImGui::End();
+    }
+}
+
+void Editor::draw_dialogs()
+{
+    const auto center = [&]
+    { ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), 0.4f * float(view_height_)), 0, ImVec2(0.5f, 0.5f)); };
+    const bool asking = !std::holds_alternative<std::monostate>(intent_);
+    if (asking && !ImGui::IsPopupOpen("unsaved changes"))
+        ImGui::OpenPopup("unsaved changes");
+    center();
+    if (ImGui::BeginPopupModal("unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+    {
+        ImGui::Text("%s has unsaved changes.", style_.name().c_str());
+        const bool can_save = !style_.file.empty();
+        bool go = false, stay = !asking;
+        if (can_save && ImGui::Button("Save"))
+            stay = !(go = save(style_.file));
+        if (can_save)
+            ImGui::SameLine();
+        if (ImGui::Button("Discard"))
+        {
+            unsaved_ = false;
+            go = true;
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel"))
+            stay = true;
+        if (go || stay)
+        {
+            const Intent intent = std::exchange(intent_, std::monostate{});
+            ImGui::CloseCurrentPopup();
+            if (go)
+                carry_out(intent);
+        }
+        ImGui::EndPopup();
+    }
+
+    if (std::exchange(ask_save_as_, false))
+    {
+        save_as_ = style_.file.empty() ? "untitled.toml" : (style_.file.parent_path() / (style_.name() + "-2.toml")).string();
+        ImGui::OpenPopup("save as");
+    }
+    center();
+    if (ImGui::BeginPopupModal("save as", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+    {
+        ImGui::SetNextItemWidth(480.0f);
+        if (ImGui::IsWindowAppearing())
+            ImGui::SetKeyboardFocusHere();
+        const bool enter = ImGui::InputText("##file", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
+        std::error_code error;
+        const bool exists = !save_as_.empty() && std::filesystem::exists(save_as_, error);
+        if (exists)
+            ImGui::TextColored(ImVec4(1.0f, 0.78f, 0.35f, 1.0f), "That file exists and will be replaced.");
+        // The return key does not replace a file: that takes a click.
+        if ((enter && !exists) || ImGui::Button(exists ? "Replace" : "Save"))
+            if (!save_as_.empty() && save(save_as_))
+                ImGui::CloseCurrentPopup();
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel"))
+            ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+    }
+
+    if (std::exchange(ask_open_, false))
+    {
+        save_as_.clear();
+        ImGui::OpenPopup("open a hairstyle");
+    }
+    center();
+    if (ImGui::BeginPopupModal("open a hairstyle", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+    {
+        for (const std::filesystem::path& file : preset_files())
+            if (ImGui::Selectable(file.stem().string().c_str()))
+            {
+                open(file);
+                ImGui::CloseCurrentPopup();
+            }
+        ImGui::Separator();
+        ImGui::SetNextItemWidth(480.0f);
+        const bool enter = ImGui::InputTextWithHint("##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
+        if ((ImGui::Button("Open") || enter) && !save_as_.empty())
+        {
+            open(save_as_);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel"))
+            ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+    }
+}
+
+} // namespace coif

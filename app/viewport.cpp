@@ -1,0 +1,128 @@
+#include "app/viewport.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+
+namespace
+{
+struct Axes
+{
+    glm::dvec3 forward, right, up;
+};
+} // namespace
+
+static Axes axes_of(const Camera& camera)
+{
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.position());
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+    return {forward, right, glm::cross(right, forward)};
+}
+
+Ray ray_through(const Camera& camera, double x, double y, int width, int height)
+{
+    const Axes axes = axes_of(camera);
+    const double pixel = 2.0 * std::tan(0.5 * camera.fov) / std::max(height, 1);
+    return {camera.position(), glm::normalize(axes.forward + axes.right * ((x - 0.5 * width) * pixel) -
+                                              axes.up * ((y - 0.5 * height) * pixel))};
+}
+
+std::optional<double> hit(const Ray& ray, glm::dvec3 center, double radius)
+{
+    const glm::dvec3 from = ray.origin - center;
+    const double b = glm::dot(from, ray.direction), d = b * b - glm::dot(from, from) + radius * radius;
+    if (d < 0.0 || -b - std::sqrt(d) < 0.0)
+        return std::nullopt;
+    return -b - std::sqrt(d);
+}
+
+glm::dvec3 on_facing_plane(const Ray& ray, const Camera& camera, glm::dvec3 point)
+{
+    const glm::dvec3 forward = axes_of(camera).forward;
+    const double speed = glm::dot(ray.direction, forward);
+    const double far = glm::dot(point - ray.origin, forward) / std::max(speed, 1e-6);
+    return ray.origin + ray.direction * far;
+}
+
+void orbit(Camera& camera, double dx, double dy)
+{
+    camera.yaw -= 0.008 * dx;
+    camera.pitch = std::clamp(camera.pitch + 0.008 * dy, -1.55, 1.55);
+}
+
+void pan(Camera& camera, double dx, double dy, int height)
+{
+    const Axes axes = axes_of(camera);
+    const double pixel = 2.0 * std::tan(0.5 * camera.fov) * camera.distance / std::max(height, 1);
+    camera.target += (axes.up * dy - axes.right * dx) * pixel;
+}
+
+void zoom(Camera& camera, double notches)
+{
+    camera.distance = std::clamp(camera.distance * std::pow(0.88, notches), 0.02, 100.0);
+}
+
+void frame_head(Camera& camera, const Simulation& simulation)
+{
+    const Groom& groom = simulation.solver().groom();
+    const Pose& head = simulation.solver().head();
+    // Hair hangs: the middle of what is to be seen lies below the head's own.
+    const double reach = 0.55 * double(groom.extent) + 0.35 * double(groom.longest);
+    camera.target = head.origin + head.turn * glm::dvec3(groom.center) - glm::dvec3(0.0, 0.25 * double(groom.longest), 0.0);
+    camera.distance = std::clamp(1.35 * reach / std::sin(0.5 * camera.fov), 0.02, 100.0);
+}
+
+Grab grab(const Simulation& simulation, const Camera& camera, double x, double y, int width, int height, bool turn)
+{
+    Grab held;
+    held.what = Grab::ORBIT;
+    held.x = x;
+    held.y = y;
+    const Ray ray = ray_through(camera, x, y, width, height);
+    const glm::dvec3 origin = simulation.solver().head().origin;
+    const std::vector<float4> placed = simulation.solver().placed_colliders();
+    const size_t of_head = simulation.assets().spheres.size();
+    double nearest = INFINITY;
+    for (size_t i = 0; i < placed.size(); ++i)
+    {
+        const glm::dvec3 center = origin + glm::dvec3(placed[i].x, placed[i].y, placed[i].z);
+        const std::optional<double> at = hit(ray, center, placed[i].w);
+        if (!at || *at >= nearest)
+            continue;
+        nearest = *at;
+        held.start = ray.origin + ray.direction * *at;
+        held.what = i >= of_head ? Grab::COLLIDER : turn ? Grab::TURN_HEAD : Grab::MOVE_HEAD;
+        held.collider = i - of_head; // meaningful for colliders only
+        held.origin_before = i >= of_head ? center : simulation.hand().origin;
+    }
+    held.turn_before = simulation.hand().turn;
+    return held;
+}
+
+Pose dragged_head(const Grab& held, const Camera& camera, double x, double y, int width, int height)
+{
+    if (held.what == Grab::TURN_HEAD)
+    {
+        const glm::dquat yaw = glm::angleAxis(0.008 * (x - held.x), glm::dvec3(0, 1, 0));
+        const glm::dquat pitch = glm::angleAxis(0.008 * (y - held.y), axes_of(camera).right);
+        return {held.origin_before, glm::normalize(yaw * pitch * held.turn_before), glm::dvec3(0.0)};
+    }
+    const glm::dvec3 now = on_facing_plane(ray_through(camera, x, y, width, height), camera, held.start);
+    return {held.origin_before + now - held.start, held.turn_before, glm::dvec3(0.0)};
+}
+
+glm::vec3 dragged_collider(const Grab& held, const Simulation& simulation, const Camera& camera, double x, double y,
+                           int width, int height)
+{
+    const glm::dvec3 now = on_facing_plane(ray_through(camera, x, y, width, height), camera, held.start);
+    const glm::dvec3 center = held.origin_before + now - held.start;
+    const Pose& head = simulation.solver().head();
+    const bool on_head = simulation.style().host.colliders.at(held.collider).on_head;
+    return glm::vec3(on_head ? glm::conjugate(head.turn) * (center - head.origin) : center);
+}
+
+} // namespace coif

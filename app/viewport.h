@@ -1,0 +1,61 @@
+#pragma once
+#include "app/renderer.h"
+
+#include <optional>
+
+namespace coif
+{
+
+// A line of sight in the world; direction of unit length.
+struct Ray
+{
+    glm::dvec3 origin, direction;
+};
+
+// Through the pixel (x, y) of a view, y from the top.
+Ray ray_through(const Camera& camera, double x, double y, int width, int height);
+
+// Where the ray first meets a sphere in front of it, m along the ray.
+std::optional<double> hit(const Ray& ray, glm::dvec3 center, double radius);
+
+// Where the ray meets the plane through `point` that faces the camera.
+glm::dvec3 on_facing_plane(const Ray& ray, const Camera& camera, glm::dvec3 point);
+
+// By pixels of the mouse.
+void orbit(Camera& camera, double dx, double dy);
+void pan(Camera& camera, double dx, double dy, int height);
+void zoom(Camera& camera, double notches);
+
+// Looks at the head from the side that the camera is on, near enough to fill the view with the hair.
+void frame_head(Camera& camera, const Simulation& simulation);
+
+// What the mouse has hold of, from press to release.
+struct Grab
+{
+    enum What
+    {
+        NONE,
+        ORBIT,
+        PAN,
+        MOVE_HEAD,
+        TURN_HEAD,
+        COLLIDER
+    } what = NONE;
+    size_t collider = 0;             // of the style
+    glm::dvec3 start{0.0};           // where it was taken, world
+    glm::dvec3 origin_before{0.0};   // of the head or the collider, world
+    glm::dquat turn_before{1, 0, 0, 0};
+    double x = 0, y = 0;             // of the press, pixels
+};
+
+// What lies under the pixel: a collider of the style, the head, or nothing (then the drag orbits).
+Grab grab(const Simulation& simulation, const Camera& camera, double x, double y, int width, int height, bool turn);
+
+// The head's pose for the mouse at (x, y) while MOVE_HEAD or TURN_HEAD.
+Pose dragged_head(const Grab& held, const Camera& camera, double x, double y, int width, int height);
+
+// The collider's centre in its own frame for the mouse at (x, y) while COLLIDER.
+glm::vec3 dragged_collider(const Grab& held, const Simulation& simulation, const Camera& camera, double x, double y,
+                           int width, int height);
+
+} // namespace coif
