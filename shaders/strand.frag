@@ -22,8 +22,8 @@ void main()
     // Listing A.2 measures the eye's angle from the other end of the tangent: the cone of reflection has its mirror there.
     float specular = params.look_specular * pow(max(0.0, sin_tl * sin_te - tl * te), params.look_specular_exponent);
 
-    // Hair that hides from the light hides from the surroundings too, though less: they come in from all sides.
-    float ambient = params.look_ambient * pow(ribbon.light, 0.35);
+    // Hair that hides from the light hides from the surroundings too, though far less: they come in from all sides.
+    float ambient = params.look_ambient * mix(0.4, 1.0, pow(ribbon.light, 0.35));
     vec3 lit = ribbon.light * params.look_light_color.rgb;
     // The highlight leaves the surface almost uncoloured.
     vec3 sum = ribbon.color * (ambient + diffuse * lit) + mix(vec3(1.0), ribbon.color, 0.4) * specular * lit;

@@ -83,7 +83,7 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
         if (weights[k] > weights[nearest])
             nearest = k;
     for (int k = 0; k < 3; ++k)
-        if (glm::dot(directions[k], directions[nearest]) < 0.3f)
+        if (glm::dot(directions[k], directions[nearest]) < 0.7f)
             weights[k] = 0.0f;
     return weights / (weights.x + weights.y + weights.z);
 }

@@ -1,1 +1,195 @@
-// Placeholder.
+// The structs of kernels/shared.h as three compilers lay them out: C++, OpenCL C and GLSL.
+#include "app/gl.h"
+#include "sim/error.h"
+#include "sim/hairstyle.h"
+#include "sim/source.h"
+#include "tests/on_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <regex>
+
+namespace coif
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct Field
+{
+    std::string type, name; // of the struct's typedef, of the member
+    int offset;             // that C++ gives it; -1 asks for the struct's size
+};
+
+#define STEP_FIELDS(X)                                                                                                 \
+    X(head_row0)                                                                                                       \
+    X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity) X(head_center)    \
+        X(wind) X(gust_origin) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity) X(stretch)      \
+            X(relax) X(bend) X(clearance) X(repulsion) X(guides) X(drawn_multi) X(drawn) X(colliders) X(teleport)      \
+                X(last_substep) X(body_density) X(sweep_axis) X(sweep_from) X(sweep_sign)
+#define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
+
+std::vector<Field> fields_of_params()
+{
+    std::vector<Field> fields;
+    for (const ParamInfo& info : param_table())
+        if (!info.on_host())
+            fields.push_back({"HairParams", std::string(info.group) + "_" + info.name, int(info.offset)});
+    return fields;
+}
+
+std::vector<Field> all_fields()
+{
+    std::vector<Field> fields = fields_of_params();
+#define STEP_FIELD(name) fields.push_back({"StepInfo", #name, int(offsetof(StepInfo, name))});
+#define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
+    STEP_FIELDS(STEP_FIELD)
+    DRAWN_FIELDS(DRAWN_FIELD)
+    return fields;
+}
+
+// Members of a struct as they stand in the header, in order.
+std::vector<std::string> members_in_text(const std::string& text, const std::string& type)
+{
+    const size_t begin = text.find("typedef struct " + type), end = text.find("} " + type, begin);
+    const std::string body = std::regex_replace(text.substr(begin, end - begin), std::regex("//[^\n]*"), "");
+    const std::regex declaration("(float4|float|int)\\s+([^;]*);"), name("\\w+");
+    std::vector<std::string> names;
+    for (std::sregex_iterator d(body.begin(), body.end(), declaration), none; d != none; ++d)
+    {
+        const std::string list = (*d)[2];
+        for (std::sregex_iterator n(list.begin(), list.end(), name); n != none; ++n)
+            names.push_back(n->str());
+    }
+    return names;
+}
+
+TEST(Layout, TheTestKnowsEveryFieldOfStepInfoAndDrawnStrand)
+{
+    const std::string text = read_file(data_folder() / "kernels" / "shared.h");
+    for (const std::string type : {"StepInfo", "DrawnStrand"})
+    {
+        std::vector<std::string> known;
+        for (const Field& field : all_fields())
+            if (field.type == type)
+                known.push_back(field.name);
+        EXPECT_EQ(known, members_in_text(text, type));
+    }
+}
+
+TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
+{
+    const std::vector<Field> fields = all_fields();
+    std::string body;
+    for (size_t i = 0; i < fields.size(); ++i)
+        body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
+                            fields[i].name, fields[i].type + "_");
+    int at = int(fields.size());
+    for (const char* type : {"HairParams", "StepInfo", "DrawnStrand"})
+        body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
+
+    // A kernel is read with its headers beside it.
+    const fs::path folder = fs::path(COIF_BUILD_FOLDER) / "layout_kernels";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (const char* header : {"shared.h", "params.def"})
+        fs::copy_file(data_folder() / "kernels" / header, folder / header);
+    write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
+                                            "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
+                                            "    DrawnStrand DrawnStrand_;\n" +
+                                                body + "}\n");
+    Device device = test_device();
+    device.kernel_folder = folder;
+    Kernel kernel = load_kernel(device, "report_layout", "");
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 3, -1))}};
+    run(device, kernel, buffers, cl::NDRange(1));
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 3);
+
+    for (size_t i = 0; i < fields.size(); ++i)
+        EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
+    EXPECT_EQ(offset[fields.size()], int(sizeof(HairParams)));
+    EXPECT_EQ(offset[fields.size() + 1], int(sizeof(StepInfo)));
+    EXPECT_EQ(offset[fields.size() + 2], int(sizeof(DrawnStrand)));
+}
+
+// A program whose only purpose is to make a uniform block active.
+class BlockProgram
+{
+  public:
+    BlockProgram(const std::string& declarations, const std::string& value)
+    {
+        id_ = glCreateProgram();
+        attach(GL_VERTEX_SHADER, "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n");
+        attach(GL_FRAGMENT_SHADER,
+               "#version 150\n" + declarations + "out vec4 color;\nvoid main() { color = vec4(" + value + "); }\n");
+        glLinkProgram(id_);
+        GLint linked = 0;
+        glGetProgramiv(id_, GL_LINK_STATUS, &linked);
+        EXPECT_TRUE(linked);
+    }
+    ~BlockProgram() { glDeleteProgram(id_); }
+    BlockProgram(const BlockProgram&) = delete;
+
+    GLint offset(const std::string& member) const
+    {
+        const char* name = member.c_str();
+        GLuint index = GL_INVALID_INDEX;
+        glGetUniformIndices(id_, 1, &name, &index);
+        GLint value = -1;
+        if (index != GL_INVALID_INDEX)
+            glGetActiveUniformsiv(id_, 1, &index, GL_UNIFORM_OFFSET, &value);
+        return value;
+    }
+    GLint bytes(const char* block) const
+    {
+        GLint value = -1;
+        glGetActiveUniformBlockiv(id_, glGetUniformBlockIndex(id_, block), GL_UNIFORM_BLOCK_DATA_SIZE, &value);
+        return value;
+    }
+
+  private:
+    void attach(GLenum stage, const std::string& text)
+    {
+        const char* source = text.c_str();
+        const GLuint shader = glCreateShader(stage);
+        glShaderSource(shader, 1, &source, nullptr);
+        glCompileShader(shader);
+        char log[1024] = {};
+        glGetShaderInfoLog(shader, sizeof log - 1, nullptr, log);
+        EXPECT_STREQ(log, "");
+        glAttachShader(id_, shader);
+        glDeleteShader(shader);
+    }
+    GLuint id_ = 0;
+};
+
+TEST(Layout, GlslPlacesEveryParameterWhereCppDoes)
+{
+    const Window window(16, 16, Window::HIDDEN);
+    const BlockProgram program(glsl_params_block(), "params.strand_spacing");
+    for (const Field& field : fields_of_params())
+        EXPECT_EQ(program.offset("HairParams." + field.name), field.offset) << field.name;
+    EXPECT_EQ(program.bytes("HairParams"), int(sizeof(HairParams)));
+}
+
+TEST(Layout, GlslPlacesTheFramesFieldsAsTheRendererFillsThem)
+{
+    // FrameBlock of app/renderer.cpp: a matrix, six float4 and four whole numbers without gaps.
+    const Window window(16, 16, Window::HIDDEN);
+    const BlockProgram program(load_source(data_folder() / "shaders" / "frame.glsl"), "frame.sweep.x");
+    const char* const names[] = {"view_projection", "camera_position", "head_row0", "head_row1",
+                                 "head_row2",       "grid_corner",     "sweep",     "slices"};
+    int offset = 0;
+    for (const char* name : names)
+    {
+        EXPECT_EQ(program.offset(std::string("Frame.") + name), offset) << name;
+        offset += offset == 0 ? 64 : 16;
+    }
+    EXPECT_EQ(program.bytes("Frame"), offset);
+}
+
+} // namespace
+} // namespace coif

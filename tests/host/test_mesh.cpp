@@ -1,0 +1,353 @@
+// Scalps, heads in every format that coif promises, and distances to triangles.
+#include "sim/mesh.h"
+#include "tests/host/scratch.h"
+
+#include <assimp/Exporter.hpp>
+#include <assimp/scene.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+using test::between;
+using test::bytes_of;
+using test::error_of;
+using test::Scratch;
+using test::shipped;
+
+TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
+{
+    for (const auto& [name, guides] : {std::pair{"scalp.obj", 248u}, {"scalp_top.obj", 230u}, {"scalp_strip.obj", 249u}})
+    {
+        const Scalp scalp = load_scalp(shipped(name));
+        EXPECT_EQ(scalp.positions.size(), guides) << name;
+        EXPECT_EQ(scalp.normals.size(), guides) << name;
+        std::istringstream in(bytes_of(shipped(name)));
+        std::string line;
+        size_t vertex = 0, face = 0;
+        while (std::getline(in, line))
+        {
+            float v[3];
+            unsigned f[3];
+            if (sscanf(line.c_str(), "v %f %f %f", v, v + 1, v + 2) == 3)
+            {
+                for (int axis = 0; axis < 3; ++axis)
+                    EXPECT_NEAR(scalp.positions.at(vertex)[axis], v[axis], 1e-7) << name << " vertex " << vertex;
+                ++vertex;
+            }
+            else if (sscanf(line.c_str(), "f %u%*[/0-9] %u%*[/0-9] %u", f, f + 1, f + 2) == 3 ||
+                     sscanf(line.c_str(), "f %u %u %u", f, f + 1, f + 2) == 3)
+            {
+                EXPECT_EQ(scalp.triangles.at(face), glm::uvec3(f[0] - 1, f[1] - 1, f[2] - 1)) << name;
+                ++face;
+            }
+        }
+        EXPECT_EQ(vertex, guides);
+        EXPECT_EQ(face, scalp.triangles.size());
+    }
+}
+
+TEST(Scalp, each_shipped_one_lies_on_the_cranium_and_looks_outwards)
+{
+    for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
+    {
+        const Scalp scalp = load_scalp(shipped(name));
+        EXPECT_NEAR(glm::length(scalp.center), 0.0f, 1e-4f) << name;
+        EXPECT_NEAR(scalp.radius, 0.1f, 1e-4f) << name;
+        for (size_t i = 0; i < scalp.positions.size(); ++i)
+        {
+            EXPECT_NEAR(glm::length(scalp.normals[i]), 1.0f, 1e-5f);
+            EXPECT_GT(glm::dot(scalp.normals[i], glm::normalize(scalp.positions[i])), 0.8f) << name << " " << i;
+        }
+    }
+}
+
+std::string grid_obj(int side, float size, float bend)
+{
+    std::string text;
+    for (int z = 0; z < side; ++z)
+        for (int x = 0; x < side; ++x)
+            text += fmt::format("v {} {} {}\n", size * float(x), 3.0f + bend * float(x * x + z * z), size * float(z));
+    for (int z = 0; z + 1 < side; ++z)
+        for (int x = 0; x + 1 < side; ++x)
+        {
+            const int a = side * z + x + 1;
+            text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + side, a + 1, a + 1, a + side, a + side + 1);
+        }
+    return text;
+}
+
+TEST(Scalp, a_flat_one_has_its_centroid_for_a_centre_and_normals_that_stand_on_it)
+{
+    const Scratch scratch;
+    const Scalp scalp = load_scalp(scratch.write("flat.obj", grid_obj(3, 0.1f, 0.0f)));
+    EXPECT_NEAR(glm::length(scalp.center - glm::vec3(0.1f, 3.0f, 0.1f)), 0.0f, 1e-5f);
+    EXPECT_TRUE(std::isfinite(scalp.radius) && scalp.radius > 0.0f);
+    EXPECT_NEAR(scalp.extent, 0.2f, 1e-6f);
+    for (const glm::vec3& n : scalp.normals)
+        EXPECT_NEAR(glm::dot(n, glm::vec3(0, 1, 0)), 1.0f, 1e-5f);
+}
+
+TEST(Scalp, the_sphere_fits_wherever_the_head_is_and_whatever_its_size)
+{
+    std::mt19937 random(3);
+    const Scratch scratch;
+    for (const double radius : {0.001, 0.1, 50.0})
+    {
+        const glm::dvec3 center = glm::dvec3(3.0, -2.0, 5.0) * radius;
+        std::string text;
+        for (int i = 0; i < 60; ++i)
+        {
+            const glm::dvec3 d = glm::normalize(glm::dvec3(between(random, -1, 1), between(random, 0.1, 1), between(random, -1, 1)));
+            const glm::dvec3 p = center + radius * d;
+            text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+        }
+        for (int i = 1; i < 59; ++i)
+            text += fmt::format("f {} {} {}\n", i, i + 1, i + 2);
+        const Scalp scalp = load_scalp(scratch.write("ball.obj", text));
+        EXPECT_NEAR(glm::length(glm::dvec3(scalp.center) - center) / radius, 0.0, 1e-4) << radius;
+        EXPECT_NEAR(scalp.radius / radius, 1.0, 1e-4) << radius;
+    }
+}
+
+TEST(Scalp, names_normals_texture_and_materials_beside_the_triangles_are_passed_over)
+{
+    const Scratch scratch;
+    const std::string text = "# made by hand\r\nmtllib none.mtl\r\no cap\r\nv 0 0 0 1 0 0\r\nv +.1 0 0\r\n"
+                             "  v 0 0 1e-1\r\nvt 0 0\r\nvn 0 1 0\r\nusemtl skin\r\ns 1\r\ng top\r\nf 1/1/1 3//1 2/1\r\n"
+                             "g side\r\nf -3 -2 -1 # wound the other way\r\nl 1 2\r\np 1\r\n";
+    const Scalp scalp = load_scalp(scratch.write("dressed.obj", text));
+    ASSERT_EQ(scalp.positions.size(), 3u);
+    EXPECT_EQ(scalp.positions[1], glm::vec3(0.1f, 0, 0));
+    EXPECT_EQ(scalp.positions[2], glm::vec3(0, 0, 0.1f));
+    ASSERT_EQ(scalp.triangles.size(), 2u);
+    EXPECT_EQ(scalp.triangles[0], glm::uvec3(0, 2, 1));
+    EXPECT_EQ(scalp.triangles[1], glm::uvec3(0, 1, 2));
+}
+
+TEST(Scalp, vertices_that_no_triangle_uses_look_away_from_the_centre)
+{
+    const Scratch scratch;
+    const Scalp scalp = load_scalp(
+        scratch.write("loose.obj", "v 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 0 -0.1 0\nv 0 0 -0.1\nf 1 2 3\n"));
+    EXPECT_NEAR(glm::dot(scalp.normals[3], glm::vec3(0, -1, 0)), 1.0f, 1e-4f);
+    EXPECT_NEAR(glm::dot(scalp.normals[4], glm::vec3(0, 0, -1)), 1.0f, 1e-4f);
+}
+
+// Nearest of many points of the triangle, in double: never nearer than the true distance, and closer to it the finer.
+double sampled_distance(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c)
+{
+    double least = INFINITY;
+    glm::dvec2 low(0.0), high(1.0);
+    for (int level = 0; level < 12; ++level)
+    {
+        glm::dvec2 best(0.0);
+        for (int i = 0; i <= 20; ++i)
+            for (int j = 0; j <= 20; ++j)
+            {
+                glm::dvec2 w(low.x + (high.x - low.x) * i / 20.0, low.y + (high.y - low.y) * j / 20.0);
+                w = glm::max(w, 0.0);
+                if (w.x + w.y > 1.0)
+                    w /= w.x + w.y;
+                const double d = glm::length(p - a - (b - a) * w.x - (c - a) * w.y);
+                if (d < least)
+                    least = d, best = w;
+            }
+        if (best != glm::dvec2(0.0) || level == 0)
+        {
+            const glm::dvec2 half = (high - low) * 0.2;
+            low = best - half;
+            high = best + half;
+        }
+        else
+            break;
+    }
+    return least;
+}
+
+TEST(Mesh, distance_to_a_triangle_is_that_to_its_nearest_point)
+{
+    std::mt19937 random(17);
+    const auto point = [&](double size) { return glm::vec3(between(random, -size, size), between(random, -size, size), between(random, -size, size)); };
+    for (int trial = 0; trial < 300; ++trial)
+    {
+        const glm::vec3 a = point(1), b = point(1), c = point(1), p = point(trial % 2 ? 3 : 0.5);
+        const double expected = sampled_distance(p, a, b, c);
+        EXPECT_NEAR(triangle_distance(p, a, b, c), expected, 2e-5 + 1e-5 * expected) << trial;
+    }
+}
+
+TEST(Mesh, distance_to_a_triangle_without_area_is_finite_and_no_less_than_to_its_nearest_point)
+{
+    const glm::vec3 a(0, 0, 0), b(1, 0, 0), p(0.5f, 2, 0);
+    EXPECT_NEAR(triangle_distance(p, a, a, a), glm::length(p), 1e-6f);
+    EXPECT_NEAR(triangle_distance(p, a, b, a), 2.0f, 1e-6f);
+    EXPECT_NEAR(triangle_distance(p, a, a, b), 2.0f, 1e-6f);
+    EXPECT_NEAR(triangle_distance(p, a, b, b), 2.0f, 1e-6f);
+    EXPECT_NEAR(triangle_distance(p, a, b, glm::vec3(2, 0, 0)), 2.0f, 1e-6f);
+    EXPECT_NEAR(triangle_distance({-3, 0, 0}, a, b, glm::vec3(2, 0, 0)), 3.0f, 1e-6f);
+}
+
+// A tetrahedron in a node that turns, scales and moves it.
+aiScene* tetrahedron()
+{
+    auto* scene = new aiScene;
+    scene->mMaterials = new aiMaterial*[1]{new aiMaterial};
+    scene->mNumMaterials = 1;
+    auto* mesh = new aiMesh;
+    mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+    mesh->mName = "tetrahedron";
+    mesh->mNumVertices = 4;
+    mesh->mVertices = new aiVector3D[4]{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh->mNumFaces = 4;
+    mesh->mFaces = new aiFace[4];
+    const unsigned corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    for (int f = 0; f < 4; ++f)
+    {
+        mesh->mFaces[f].mNumIndices = 3;
+        mesh->mFaces[f].mIndices = new unsigned[3]{corners[f][0], corners[f][1], corners[f][2]};
+    }
+    scene->mMeshes = new aiMesh*[1]{mesh};
+    scene->mNumMeshes = 1;
+    scene->mRootNode = new aiNode("root");
+    auto* child = new aiNode("child");
+    child->mNumMeshes = 1;
+    child->mMeshes = new unsigned[1]{0};
+    // A quarter turn about y, twice the size, and aside.
+    child->mTransformation = aiMatrix4x4(0, 0, 2, 10, 0, 2, 0, 20, -2, 0, 0, 30, 0, 0, 0, 1);
+    scene->mRootNode->addChildren(1, &child);
+    return scene;
+}
+
+std::vector<glm::vec3> sorted(std::vector<glm::vec3> points)
+{
+    std::sort(points.begin(), points.end(), [](glm::vec3 a, glm::vec3 b)
+              { return std::lround(a.x) != std::lround(b.x)   ? a.x < b.x
+                       : std::lround(a.y) != std::lround(b.y) ? a.y < b.y
+                                                              : a.z < b.z; });
+    return points;
+}
+
+fs::path exported(const Scratch& scratch, const std::string& format, const std::string& suffix)
+{
+    const fs::path file = scratch / (format + "." + suffix);
+    const std::unique_ptr<aiScene> scene(tetrahedron());
+    Assimp::Exporter exporter;
+    EXPECT_EQ(exporter.Export(scene.get(), format, file.string()), aiReturn_SUCCESS) << exporter.GetErrorString();
+    return file;
+}
+
+const std::pair<const char*, const char*> kFormats[] = {{"obj", "obj"},    {"ply", "ply"},  {"plyb", "ply"}, {"gltf2", "gltf"},
+                                                        {"glb2", "glb"}, {"fbx", "fbx"}, {"fbxa", "fbx"}};
+
+TEST(Mesh, obj_ply_gltf_and_fbx_give_the_same_triangles_with_their_nodes_applied)
+{
+    const Scratch scratch;
+    const std::vector<glm::vec3> expected = {{10, 20, 28}, {10, 20, 30}, {10, 22, 30}, {12, 20, 30}};
+    for (const auto& [format, suffix] : kFormats)
+    {
+        const Mesh mesh = load_mesh(exported(scratch, format, suffix));
+        const std::vector<glm::vec3> points = sorted(mesh.positions);
+        ASSERT_EQ(points.size(), 4u) << format;
+        EXPECT_EQ(mesh.triangles.size(), 4u) << format;
+        ASSERT_EQ(mesh.normals.size(), 4u) << format;
+        for (size_t i = 0; i < 4; ++i)
+        {
+            EXPECT_NEAR(glm::length(points[i] - expected[i]), 0.0f, 1e-4f) << format << " " << i;
+            EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0f, 1e-5f) << format;
+            const glm::vec3 out = mesh.positions[i] - glm::vec3(10.5f, 20.5f, 29.5f);
+            EXPECT_GT(glm::dot(mesh.normals[i], out), 0.0f) << format; // a turn keeps what is outside
+        }
+    }
+}
+
+TEST(Mesh, the_shipped_head_loads_with_unit_normals)
+{
+    const Mesh head = load_mesh(shipped("head.obj"));
+    EXPECT_GT(head.triangles.size(), 1000u);
+    for (const glm::vec3& n : head.normals)
+        ASSERT_NEAR(glm::length(n), 1.0f, 1e-4f);
+    for (const glm::uvec3& t : head.triangles)
+        for (int k = 0; k < 3; ++k)
+            ASSERT_LT(t[k], head.positions.size());
+}
+
+TEST(Mesh, quads_are_cut_and_lines_and_points_left_out)
+{
+    const Scratch scratch;
+    const Mesh mesh =
+        load_mesh(scratch.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 3\np 2\n"));
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+}
+
+TEST(Mesh, what_is_no_mesh_is_told_and_never_crashes)
+{
+    const Scratch scratch;
+    std::mt19937 random(23);
+    std::string junk;
+    for (int i = 0; i < 5000; ++i)
+        junk += char(random());
+    for (const char* suffix : {"obj", "ply", "gltf", "glb", "fbx", "stl", "xyz", ""})
+        for (const std::string& bytes : {std::string(), junk, std::string("hello\n"), std::string(1000, '\0')})
+        {
+            const fs::path file = scratch.write(std::string("bad.") + suffix, bytes);
+            const std::string error = error_of([&] { load_mesh(file); });
+            EXPECT_EQ(error.rfind(file.string() + ": ", 0), 0u) << suffix << ": " << error;
+        }
+    EXPECT_EQ(error_of([&] { load_mesh(scratch / "none.obj"); }), (scratch / "none.obj").string() + ": there is no such file");
+    EXPECT_NE(error_of([&] { load_mesh(scratch.folder()); }), "no error");
+    EXPECT_NE(error_of([&] { load_mesh(scratch.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")); }), "no error");
+}
+
+TEST(Mesh, a_file_cut_short_is_an_error_or_a_smaller_mesh)
+{
+    const Scratch scratch;
+    for (const auto& [format, suffix] : kFormats)
+    {
+        const std::string whole = bytes_of(exported(scratch, format, suffix));
+        for (int i = 0; i < 20; ++i)
+        {
+            const std::string name = std::string("cut.") + suffix;
+            const fs::path file = scratch.write(name, whole.substr(0, whole.size() * size_t(i) / 20));
+            error_of([&] { load_mesh(file); });
+        }
+    }
+    const std::string glb = bytes_of(exported(scratch, "glb2", "glb"));
+    const fs::path cut = scratch.write("cut.glb", glb.substr(0, glb.size() / 2));
+    EXPECT_NE(error_of([&] { load_mesh(cut); }), "no error");
+}
+
+TEST(Mesh, corners_that_are_not_there_and_numbers_that_are_none_are_told)
+{
+    const Scratch scratch;
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::pair<const char*, std::string> broken[] = {
+        {"far.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n"},
+        {"below.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -7\n"},
+        {"nan.ply", ply + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999\n"},
+        {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -7\n"},
+    };
+    for (const auto& [name, text] : broken)
+    {
+        const fs::path file = scratch.write(name, text);
+        EXPECT_EQ(error_of([&] { load_mesh(file); }).rfind(file.string() + ": ", 0), 0u) << name;
+    }
+    // glTF: the same, in the buffer beside it. The indices of the last face are the file's last twelve or six bytes.
+    const fs::path gltf = exported(scratch, "gltf2", "gltf");
+    const fs::path buffer = scratch / "gltf2.bin";
+    std::string bytes = bytes_of(buffer);
+    ASSERT_GT(bytes.size(), 24u);
+    std::fill(bytes.end() - 4, bytes.end(), '\x7f');
+    scratch.write("gltf2.bin", bytes);
+    EXPECT_EQ(error_of([&] { load_mesh(gltf); }).rfind(gltf.string() + ": ", 0), 0u);
+}
+
+} // namespace
+} // namespace coif

@@ -1,0 +1,86 @@
+// Plain double-precision twins of the OpenCL passes, written from the thesis and the papers that the kernels cite, not
+// from the kernels: one strand after the other, whole loops, no lanes, no shortcuts.
+//
+// What they take over from the kernels is what makes results comparable at all: the order of the constraints in a sweep
+// (collisions, segments from node 2, segments from node 1, bending), the lattice hash of the gusts, the seeds' random
+// numbers, and fixed-point units of density.
+#pragma once
+#include "kernels/shared.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace coif::oracle
+{
+
+using Vec = glm::dvec3;
+
+struct Strands
+{
+    int nodes = 0;
+    std::vector<Vec> position, velocity;            // [strand][node]
+    std::vector<Vec> root_position, root_direction; // [strand], in the head's frame
+    std::vector<double> segment_length;             // [strand]
+    std::vector<int> resets;                        // [strand]
+
+    int count() const { return int(segment_length.size()); }
+};
+
+struct Forces
+{
+    bool wind = false, repulsion = false;
+};
+
+// The guides' substep: thesis 5.1.2. `gradient` is per voxel, in fixed-point units a voxel.
+void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradient, int resolution,
+                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info);
+
+// Nodes 1 and outwards shared out over eight voxels each, thesis 5.1.3. Not rounded; `shares` counts the nodes that had
+// a share in a voxel, each of which may be rounded by a half.
+struct Density
+{
+    std::vector<double> sum;
+    std::vector<int> shares;
+};
+Density add_density(const Strands& strands, int resolution, const StepInfo& info);
+
+// One axis of the box blur, and the central difference (eq. 5.8); zero outside.
+std::vector<int> blur_density(const std::vector<int>& density, int axis, int resolution);
+std::vector<Vec> density_gradient(const std::vector<int>& density, int resolution);
+
+// How far each voxel's centre lies inside the nearest collider's opaque body, in voxels; the body begins 0.7 voxels
+// under the collider's surface.
+std::vector<double> depth_in_bodies(const std::vector<float4>& colliders, int resolution, const StepInfo& info);
+
+// Optical depth of every ray (i, j) in every slice: kernels/light_grid.h. Trapezoids from where the ray last came in.
+std::vector<double> transmittance(const std::vector<int>& occupied, int resolution, const StepInfo& info);
+
+// Optical depth at a point, half a voxel towards the light; trilinear among the rays.
+double light_depth(const std::vector<float>& depth, Vec point, int resolution, const HairParams& params,
+                   const StepInfo& info);
+
+// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, out of the colliders. Light apart.
+std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
+                                   const std::vector<float4>& colliders, const StepInfo& info);
+std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
+                                    const std::vector<float4>& colliders, const StepInfo& info);
+
+// Room that a drawn strand's node keeps from colliders, m: clearance, its layer, its waves.
+double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info);
+
+// Parallel transport of a normal, Bergou et al. 2008, by Rodrigues' rotations; and the length up to each node.
+struct FrameNode
+{
+    Vec normal;
+    double length;
+};
+std::vector<FrameNode> transport_frames(const std::vector<Vec>& nodes, const StepInfo& info);
+
+// kernels/strand_curve.h in double.
+void curve_weights(int curve, double t, double weights[4]);
+double wave_onset(double along, double begin);
+double strand_random(int seed, int purpose);
+double wave_place(int seed, double distance, double frequency, double randomness);
+
+} // namespace coif::oracle

@@ -1,0 +1,285 @@
+// The twins of the passes that light and make drawn strands.
+#include "tests/oracle.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace coif::oracle
+{
+
+static Vec xyz(float4 v) { return {v.x, v.y, v.z}; }
+static Vec to_world(const StepInfo& info, Vec v)
+{
+    return {glm::dot(xyz(info.head_row0), v), glm::dot(xyz(info.head_row1), v), glm::dot(xyz(info.head_row2), v)};
+}
+static Vec to_head(const StepInfo& info, Vec v)
+{
+    return xyz(info.head_row0) * v.x + xyz(info.head_row1) * v.y + xyz(info.head_row2) * v.z;
+}
+
+// ---- light: Bertails et al. 2005 ---------------------------------------------------------------------------------
+
+std::vector<double> depth_in_bodies(const std::vector<float4>& colliders, int resolution, const StepInfo& info)
+{
+    std::vector<double> depth;
+    const double voxel = info.grid_corner.w;
+    for (int z = 0; z < resolution; ++z)
+        for (int y = 0; y < resolution; ++y)
+            for (int x = 0; x < resolution; ++x)
+            {
+                const Vec center = xyz(info.grid_corner) + voxel * (Vec(x, y, z) + 0.5);
+                double deepest = -1e9;
+                for (const float4& sphere : colliders)
+                    deepest = std::max(deepest, sphere.w / voxel - 0.7 - glm::distance(center, xyz(sphere)) / voxel);
+                depth.push_back(deepest);
+            }
+    return depth;
+}
+
+// A slice's axes: the two others in the order x, y, z.
+static void slice_axes(int axis, int& u, int& v)
+{
+    u = axis == 0 ? 1 : 0;
+    v = axis == 2 ? 1 : 2;
+}
+
+std::vector<double> transmittance(const std::vector<int>& occupied, int resolution, const StepInfo& info)
+{
+    const int r = resolution;
+    int u_axis, v_axis;
+    slice_axes(info.sweep_axis, u_axis, v_axis);
+    const auto density = [&](int slice, int u, int v) -> double
+    {
+        if (u < 0 || u >= r || v < 0 || v >= r)
+            return 0.0;
+        int at[3];
+        at[info.sweep_axis] = slice;
+        at[u_axis] = u;
+        at[v_axis] = v;
+        return occupied[size_t(at[0]) + size_t(r) * (size_t(at[1]) + size_t(r) * size_t(at[2]))];
+    };
+    std::vector<double> depth(size_t(r) * size_t(r) * size_t(r));
+    for (int j = 0; j < r; ++j)
+        for (int i = 0; i < r; ++i)
+        {
+            double tau = 0.0, before = 0.0;
+            int round_u = 0, round_v = 0; // how often the ray has come around
+            for (int passed = 0; passed < r; ++passed)
+            {
+                const double u = i + double(info.sweep.x) * passed, v = j + double(info.sweep.y) * passed;
+                const int now_u = int(std::floor(std::floor(u) / r)), now_v = int(std::floor(std::floor(v) / r));
+                if (now_u != round_u || now_v != round_v)
+                    tau = before = 0.0;
+                round_u = now_u;
+                round_v = now_v;
+                const double in_u = u - now_u * r, in_v = v - now_v * r;
+                const int u0 = int(std::floor(in_u)), v0 = int(std::floor(in_v));
+                const int slice = info.sweep_from + info.sweep_sign * passed;
+                double here = 0.0;
+                for (int b = 0; b <= 1; ++b)
+                    for (int a = 0; a <= 1; ++a)
+                        here += density(slice, u0 + a, v0 + b) * (1.0 - std::abs(in_u - (u0 + a))) *
+                                (1.0 - std::abs(in_v - (v0 + b)));
+                tau += 0.5 * (before + here) * info.sweep.z * info.sweep.w;
+                before = here;
+                depth[(size_t(passed) * size_t(r) + size_t(j)) * size_t(r) + size_t(i)] = tau;
+            }
+        }
+    return depth;
+}
+
+double light_depth(const std::vector<float>& depth, Vec point, int resolution, const HairParams& params,
+                   const StepInfo& info)
+{
+    const int r = resolution;
+    const Vec g =
+        (point - xyz(info.grid_corner)) / double(info.grid_corner.w) - 0.5 + 0.5 * xyz(params.look_light_direction);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(g[axis] >= 0.0 && g[axis] < r - 1))
+            return 0.0;
+    int u_axis, v_axis;
+    slice_axes(info.sweep_axis, u_axis, v_axis);
+    const double passed = std::abs(g[info.sweep_axis] - info.sweep_from);
+    const int below = std::min(int(passed), r - 2);
+    double tau = 0.0;
+    for (int s = below; s <= below + 1; ++s)
+    {
+        const double ru = g[u_axis] - double(info.sweep.x) * s, rv = g[v_axis] - double(info.sweep.y) * s;
+        const int u0 = int(std::floor(ru)), v0 = int(std::floor(rv));
+        for (int b = 0; b <= 1; ++b)
+            for (int a = 0; a <= 1; ++a)
+            {
+                const int u = ((u0 + a) % r + r) % r, v = ((v0 + b) % r + r) % r;
+                tau += depth[(size_t(s) * size_t(r) + size_t(v)) * size_t(r) + size_t(u)] *
+                       (1.0 - std::abs(ru - (u0 + a))) * (1.0 - std::abs(rv - (v0 + b))) * (1.0 - std::abs(passed - s));
+            }
+    }
+    return tau;
+}
+
+// ---- drawn strands: thesis 5.1.4 -----------------------------------------------------------------------------------
+
+double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info)
+{
+    const double along = (node - 1.0) / (nodes - 2.0);
+    const double layer = params.interpolation_layer * strand_random(strand.seed, 4) * std::min(1.0, 4.0 * along);
+    const double n = params.wave_normal_amplitude * wave_onset(along, params.wave_normal_begin);
+    const double b = params.wave_binormal_amplitude * wave_onset(along, params.wave_binormal_begin);
+    return info.clearance + layer + std::hypot(n, b);
+}
+
+// Away from the centre of the sphere it is deepest in, until no sphere holds it.
+static Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
+{
+    double deepest = 0.0;
+    Vec direction(0.0);
+    for (const float4& sphere : colliders)
+    {
+        const Vec out = p - xyz(sphere);
+        const double radius = sphere.w + room, distance = glm::length(out);
+        if (radius - distance > deepest)
+        {
+            deepest = radius - distance;
+            direction = distance > 1e-6 * radius ? out / distance : Vec(0, 1, 0);
+        }
+    }
+    if (deepest == 0.0)
+        return p;
+    double t = 0.0;
+    for (bool moved = true; moved;)
+    {
+        moved = false;
+        for (const float4& sphere : colliders)
+        {
+            const Vec out = p + t * direction - xyz(sphere);
+            const double radius = sphere.w + room;
+            if (glm::length(out) > radius - 1e-9) // on the surface is outside
+                continue;
+            const double b = glm::dot(out, direction);
+            t += -b + std::sqrt(b * b + radius * radius - glm::dot(out, out));
+            moved = true;
+        }
+    }
+    return p + t * direction;
+}
+
+static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, const HairParams& params,
+                                 const std::vector<float4>& colliders, const StepInfo& info)
+{
+    const int n = int(node.size());
+    std::vector<Vec> out = node;
+    for (int k = 2; k < n; ++k)
+    {
+        const double at = 1.0 + (k - 1) * double(strand.root.w);
+        const int i = std::min(int(at), n - 2);
+        double w[4];
+        curve_weights(3, at - i, w);
+        const Vec cut = w[0] * node[size_t(i - 1)] + w[1] * node[size_t(i)] + w[2] * node[size_t(i + 1)] +
+                        w[3] * node[size_t(std::min(i + 2, n - 1))];
+        out[size_t(k)] = out_of_union(cut, colliders, room_at(k, n, strand, params, info));
+    }
+    return out;
+}
+
+std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
+                                   const std::vector<float4>& colliders, const StepInfo& info)
+{
+    const int n = guides.nodes;
+    const int of[3] = {strand.guide0, strand.guide1, strand.guide2};
+    const double weight[3] = {strand.weights.x, strand.weights.y, strand.weights.z};
+    std::vector<Vec> node(size_t(n), to_world(info, xyz(strand.root)));
+    for (int k = 0; k < n; ++k)
+        for (int g = 0; g < 3; ++g)
+            node[size_t(k)] +=
+                weight[g] * (guides.position[size_t(of[g] * n + k)] - guides.position[size_t(of[g] * n + 1)]);
+    return finished(node, strand, params, colliders, info);
+}
+
+std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
+                                    const std::vector<float4>& colliders, const StepInfo& info)
+{
+    const int n = guides.nodes;
+    const glm::dquat turn =
+        glm::angleAxis(double(strand.weights.x), Vec(0, 1, 0)) * glm::angleAxis(double(strand.weights.y), Vec(1, 0, 0));
+    const Vec center = xyz(info.head_center);
+    std::vector<Vec> node;
+    for (int k = 0; k < n; ++k)
+    {
+        const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - center;
+        node.push_back(to_world(info, turn * own + center));
+    }
+    return finished(node, strand, params, colliders, info);
+}
+
+std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInfo& info)
+{
+    const Vec outward = glm::normalize(p[1] - to_world(info, xyz(info.head_center)));
+    Vec tangent = glm::normalize(p[1] - p[0]);
+    Vec normal = outward - tangent * glm::dot(outward, tangent);
+    if (glm::dot(normal, normal) <= 1e-4) // leaves along the normal: sideways, the same way for all strands
+    {
+        const Vec side = glm::cross(Vec(0, 1, 0), tangent);
+        normal = side - tangent * glm::dot(side, tangent);
+    }
+    normal = glm::normalize(normal);
+    std::vector<FrameNode> frames = {{normal, 0.0}};
+    double length = 0.0;
+    for (size_t k = 1; k < p.size(); ++k)
+    {
+        const Vec next = glm::normalize(p[k] - p[k - 1]), axis = glm::cross(tangent, next);
+        const double sine = glm::length(axis), cosine = glm::dot(tangent, next);
+        if (sine > 1e-12)
+            normal = glm::angleAxis(std::atan2(sine, cosine), axis / sine) * normal;
+        tangent = next;
+        length += k > 1 ? glm::distance(p[k], p[k - 1]) : 0.0;
+        frames.push_back({normal, length});
+    }
+    return frames;
+}
+
+// ---- curves and waves
+// ------------------------------------------------------------------------------------------------
+
+void curve_weights(int curve, double t, double weights[4])
+{
+    // Rows: the factors of 1, t, t^2, t^3 for each of the four nodes (Catmull and Rom 1974; Bourke 1999 for "cubic").
+    static const double catmull_rom[4][4] = {
+        {0, -0.5, 1, -0.5}, {1, 0, -2.5, 1.5}, {0, 0.5, 2, -1.5}, {0, 0, -0.5, 0.5}};
+    static const double cubic[4][4] = {{0, -1, 2, -1}, {1, 0, -2, 1}, {0, 1, 1, -1}, {0, 0, -1, 1}};
+    const double s = curve == 1 ? 0.5 * (1.0 - std::cos(std::numbers::pi * t)) : t;
+    const double straight[4] = {0.0, 1.0 - s, s, 0.0};
+    for (int i = 0; i < 4; ++i)
+    {
+        const double* c = curve == 2 ? cubic[i] : catmull_rom[i];
+        weights[i] = curve < 2 ? straight[i] : c[0] + c[1] * t + c[2] * t * t + c[3] * t * t * t;
+    }
+}
+
+double wave_onset(double along, double begin)
+{
+    const double t = std::clamp((along - begin) / 0.25, 0.0, 1.0);
+    return 3.0 * t * t - 2.0 * t * t * t;
+}
+
+double strand_random(int seed, int purpose)
+{
+    // O'Neill 2014: a linear congruential state, and the RXS-M-XS output of 32 bits, of which 24 are used.
+    const uint32_t state =
+        uint32_t(uint64_t(uint32_t(seed)) * 747796405u + uint64_t(uint32_t(purpose)) * 2891336453u + 277803737u);
+    const uint32_t word = (state ^ (state >> (4 + state / (1u << 28)))) * 277803737u;
+    return double((word ^ (word >> 22)) >> 8) / 16777216.0;
+}
+
+double wave_place(int seed, double distance, double frequency, double randomness)
+{
+    const double shift = randomness * strand_random(seed, 2);
+    const double table = randomness > 0.0 ? std::floor(32.0 * strand_random(seed, 3)) : 0.0;
+    return (distance * frequency + shift + table) / 32.0;
+}
+
+} // namespace coif::oracle

@@ -1,0 +1,162 @@
+// The passes over the grid against their double-precision twins: density and light.
+#include "sim/error.h"
+#include "tests/on_device.h"
+#include "tests/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+// Device width and voxels a side: whole chunks of 16 and of 8, and one voxel at a time where neither divides or the
+// device is a GPU.
+struct Size
+{
+    int width, resolution;
+};
+void PrintTo(const Size& size, std::ostream* out) { *out << size.width << " wide, " << size.resolution << "^3"; }
+
+class GridPasses : public testing::TestWithParam<Size>
+{
+  protected:
+    const int resolution = GetParam().resolution;
+    const size_t voxels = size_t(resolution) * size_t(resolution) * size_t(resolution);
+    const Device device = with_width(GetParam().width);
+    const size_t chunk = size_t(resolution % device.width == 0 ? device.width : 1);
+    Random random{unsigned(100 * GetParam().width + resolution)};
+
+    std::vector<int> random_density(int most)
+    {
+        std::vector<int> density;
+        for (size_t i = 0; i < voxels; ++i)
+            density.push_back(random.below(3) ? random.below(most) : 0);
+        return density;
+    }
+
+    void launch(const std::string& pass, const Buffers& buffers, cl::NDRange items, const std::string& extra = {})
+    {
+        Kernel kernel = load_kernel(device, pass, pass_options(device, 16, resolution, extra));
+        run(device, kernel, buffers, items);
+    }
+};
+
+TEST_P(GridPasses, ClearLeavesNothing)
+{
+    const Buffers buffers = {{"density", filled(device, random_density(1000))}};
+    launch("clear_density", buffers, cl::NDRange(voxels));
+    EXPECT_EQ(read<int>(device, buffers.at("density"), voxels), std::vector<int>(voxels, 0));
+}
+
+TEST_P(GridPasses, BlurIsTheTwinsToTheLastUnit)
+{
+    // Up to 2^27: the density of 30,000 nodes in one voxel.
+    const std::vector<int> density = random_density(1 << 27);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const Buffers buffers = {{"density", filled(device, density)},
+                                 {"blurred", filled(device, std::vector<int>(voxels, -1))}};
+        launch("blur_density", buffers, cl::NDRange(voxels / chunk), fmt::format("-D AXIS={}", axis));
+        EXPECT_TRUE(read<int>(device, buffers.at("blurred"), voxels) == oracle::blur_density(density, axis, resolution))
+            << "along axis " << axis;
+    }
+}
+
+TEST_P(GridPasses, GradientIsTheTwinsExactly)
+{
+    // Differences below 2^24 are whole numbers that a float holds, and halving is exact.
+    const std::vector<int> density = random_density(1 << 24);
+    const Buffers buffers = {{"density", filled(device, density)},
+                             {"gradient", filled(device, std::vector<float>(voxels * 3, NAN))}};
+    launch("density_gradient", buffers, cl::NDRange(voxels / chunk));
+    const std::vector<float> gradient = read<float>(device, buffers.at("gradient"), voxels * 3);
+    const std::vector<oracle::Vec> expected = oracle::density_gradient(density, resolution);
+    int wrong = 0;
+    for (size_t i = 0; i < voxels; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            wrong += !(double(gradient[i + size_t(axis) * voxels]) == expected[i][axis]);
+    EXPECT_EQ(wrong, 0);
+}
+
+// Light, as make_step_info() sets up its sweep, from the given direction.
+StepInfo lit_info(Random& random, int resolution, glm::dvec3 light, HairParams& params)
+{
+    params.grid_resolution = resolution;
+    params.look_light_direction = F4(float(light.x), float(light.y), float(light.z), 0.0f);
+    params = device_params(params);
+    const Groom groom = random_groom(random, 20, 16, 100);
+    return make_step_info(params, groom, {}, glm::dvec3(0.0), Substep{}, 0, true);
+}
+
+TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInside)
+{
+    HairParams params;
+    const StepInfo info = lit_info(random, resolution, {0.0, 1.0, 0.0}, params);
+    std::vector<float4> colliders;
+    for (int i = 0; i < 12; ++i) // some reach over the grid's border, one is smaller than a voxel
+    {
+        const glm::dvec3 at = random.vector(0.3);
+        colliders.push_back(F4(float(at.x), float(at.y), float(at.z), float(i == 0 ? 1e-4 : random.in(0.01, 0.15))));
+    }
+    const std::vector<int> density = random_density(100);
+    const Buffers buffers = {{"occupied", filled(device, density)},
+                             {"colliders", filled(device, colliders)},
+                             {"info", filled(device, info)}};
+    launch("add_bodies", buffers, cl::NDRange(size_t(resolution), size_t(resolution), colliders.size()));
+    const std::vector<int> occupied = read<int>(device, buffers.at("occupied"), voxels);
+    const std::vector<double> depth = oracle::depth_in_bodies(colliders, resolution, info);
+    int inside = 0, unsure = 0, wrong = 0;
+    for (size_t i = 0; i < voxels; ++i)
+    {
+        // Coordinates of up to 64 voxels carry 4e-6 of rounding; at the surface either answer is right.
+        if (std::abs(depth[i]) < 1e-4)
+            ++unsure;
+        else
+            wrong += occupied[i] != (depth[i] > 0.0 ? info.body_density : density[i]);
+        inside += depth[i] > 0.0;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_LE(unsure, int(voxels / 1000));
+    EXPECT_GT(inside, 0);
+}
+
+TEST_P(GridPasses, TransmittanceIsTheTwinsFromEverySide)
+{
+    std::vector<glm::dvec3> lights = {{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}, {1, 1, 1}, {-1, 1, -1}, {0.45, 0.75, 0.6}};
+    for (int i = 0; i < 6; ++i)
+        lights.push_back(random.direction());
+    Kernel kernel = load_kernel(device, "transmittance", pass_options(device, 16, resolution));
+    const std::vector<int> occupied = random_density(20 * 4096);
+    for (const glm::dvec3& light : lights)
+    {
+        HairParams params;
+        const StepInfo info = lit_info(random, resolution, light, params);
+        const Buffers buffers = {{"occupied", filled(device, occupied)},
+                                 {"depth", filled(device, std::vector<float>(voxels, NAN))},
+                                 {"info", filled(device, info)}};
+        run(device, kernel, buffers, cl::NDRange(voxels / size_t(resolution) / chunk));
+        const std::vector<float> depth = read<float>(device, buffers.at("depth"), voxels);
+        const std::vector<double> expected = oracle::transmittance(occupied, resolution, info);
+        double most = 0.0, worst = 0.0;
+        for (size_t i = 0; i < voxels; ++i)
+        {
+            most = std::max(most, expected[i]);
+            worst = std::max(worst, std::isfinite(depth[i]) ? std::abs(depth[i] - expected[i]) : INFINITY);
+        }
+        // The slant's rounding moves a ray by 64 * 6e-8 voxels, which changes each of up to 64 sums by as much of a
+        // voxel's density; the sums themselves round 64 times. Both come to 1e-5 of the depth at most.
+        EXPECT_LE(worst, 1e-5 * most) << "light from " << light.x << " " << light.y << " " << light.z;
+        EXPECT_GT(most, 0.0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GridPasses,
+                         testing::Values(Size{16, 64}, Size{16, 20}, Size{8, 8}, Size{16, 8}, Size{1, 20}));
+
+} // namespace
+} // namespace coif

@@ -1,0 +1,256 @@
+// simulate_pbd against its double-precision twin, one substep at a time.
+#include "sim/error.h"
+#include "tests/on_device.h"
+#include "tests/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+struct Case
+{
+    const char* name;
+    int width, nodes, resolution, strands;
+    bool wind, repulsion, density, teleport;
+    void (*change)(HairParams&);
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class SimulatePass : public testing::TestWithParam<Case>
+{
+  protected:
+    void SetUp() override
+    {
+        const Case& c = GetParam();
+        params.strand_nodes = c.nodes;
+        params.grid_resolution = c.resolution;
+        params.forces_wind = c.wind ? F4(9.0f, -2.0f, 4.0f, 0.0f) : F4(0.0f, 0.0f, 0.0f, 0.0f);
+        params.forces_repulsion = c.repulsion ? 2.0f : 0.0f;
+        if (c.change)
+            c.change(params);
+        params = device_params(params);
+        groom = random_groom(random, c.strands, c.nodes, 10);
+
+        before.origin = random.vector(2.0);
+        before.turn = glm::angleAxis(random.in(-3.0, 3.0), random.direction());
+        now.head.origin = before.origin + random.vector(c.teleport ? 5.0 : 0.02);
+        now.head.turn = glm::angleAxis(c.teleport ? 2.0 : 0.05, random.direction()) * before.turn;
+        now.time = 3.7;
+        info = make_step_info(params, groom, before, {0.4, -0.2, 0.7}, now, 7, true);
+        ASSERT_EQ(bool(info.teleport), c.teleport);
+
+        // Strands that hang together, but bent, stretched by up to a third and on the move.
+        state.nodes = c.nodes;
+        state.root_position = from_blocks(groom.root_position, c.strands, 1);
+        state.root_direction = from_blocks(groom.root_direction, c.strands, 1);
+        for (int s = 0; s < c.strands; ++s)
+        {
+            const double rest = groom.segment_length[size_t(s)];
+            state.segment_length.push_back(rest);
+            glm::dvec3 at = before.turn * (state.root_position[size_t(s)] - rest * state.root_direction[size_t(s)]);
+            for (int k = 0; k < c.nodes; ++k)
+            {
+                state.position.push_back(rounded(at));
+                state.velocity.push_back(rounded(random.vector(1.0)));
+                at += rest * (before.turn * state.root_direction[size_t(s)] + 0.35 * random.vector(1.0));
+            }
+        }
+        state.resets.assign(size_t(c.strands), 0);
+
+        for (int i = 0; i < 7; ++i) // one large in the middle, others among the strands
+        {
+            const glm::dvec3 at = i == 0 ? glm::dvec3(0.0) : 0.15 * random.direction();
+            colliders.push_back(F4(float(at.x), float(at.y), float(at.z), i == 0 ? 0.1f : 0.03f));
+        }
+        const size_t voxels = size_t(c.resolution) * size_t(c.resolution) * size_t(c.resolution);
+        for (size_t i = 0; i < voxels; ++i)
+            gradient.push_back(rounded(random.vector(3.0 * 4096.0)));
+    }
+
+    static glm::dvec3 rounded(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
+
+    Buffers buffers(const Device& device) const
+    {
+        const Case& c = GetParam();
+        std::vector<float> slopes;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const oracle::Vec& v : gradient)
+                slopes.push_back(float(v[axis]));
+        return {{"position", filled(device, to_blocks(state.position, c.strands, c.nodes))},
+                {"velocity", filled(device, to_blocks(state.velocity, c.strands, c.nodes))},
+                {"root_position", filled(device, groom.root_position)},
+                {"root_direction", filled(device, groom.root_direction)},
+                {"segment_length", filled(device, groom.segment_length)},
+                {"gradient", filled(device, slopes)},
+                {"density", filled(device, std::vector<int>(gradient.size(), 0))},
+                {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
+                {"colliders", filled(device, colliders)},
+                {"params", filled(device, params)},
+                {"info", filled(device, info)}};
+    }
+
+    void simulate(const Device& device, const Buffers& buffers) const
+    {
+        const Case& c = GetParam();
+        const std::string features = fmt::format("{}{}{}", c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "",
+                                                 c.density ? "-D DENSITY " : "");
+        Kernel kernel = load_kernel(device, "simulate_pbd", pass_options(device, c.nodes, c.resolution, features));
+        run(device, kernel, buffers, cl::NDRange(size_t(groom.blocks) * 16 / size_t(device.width)));
+    }
+
+    Random random{unsigned(7 * GetParam().nodes + 1000 * GetParam().strands + GetParam().resolution)};
+    HairParams params;
+    Groom groom;
+    Pose before;
+    Substep now;
+    StepInfo info = {};
+    oracle::Strands state;
+    std::vector<float4> colliders;
+    std::vector<oracle::Vec> gradient;
+};
+
+TEST_P(SimulatePass, MovesTheGuidesAsTheTwinDoes)
+{
+    const Case& c = GetParam();
+    const Device device = with_width(c.width);
+    const Buffers on_device = buffers(device);
+    simulate(device, on_device);
+    const size_t values = size_t(groom.blocks) * 16 * size_t(c.nodes) * 3;
+    const auto position = from_blocks(read<float>(device, on_device.at("position"), values), c.strands, c.nodes);
+    const auto velocity = from_blocks(read<float>(device, on_device.at("velocity"), values), c.strands, c.nodes);
+
+    oracle::Strands expected = state;
+    oracle::simulate_pbd(expected, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info);
+    double worst = 0.0, worst_speed = 0.0, moved = 0.0;
+    for (size_t i = 0; i < position.size(); ++i)
+    {
+        const auto distance = [](glm::dvec3 a, glm::dvec3 b)
+        {
+            const double d = glm::distance(a, b);
+            return std::isfinite(d) ? d : INFINITY;
+        };
+        worst = std::max(worst, distance(position[i], expected.position[i]));
+        worst_speed = std::max(worst_speed, distance(velocity[i], expected.velocity[i]));
+        moved = std::max(moved, distance(position[i], state.position[i]));
+    }
+    // Coordinates below half a metre round at 3e-8 m. Ten sweeps round each about 60 times, and over-relaxation (a
+    // factor below 2) hands such an error on, at most enlarged some ten times before the last plain sweep: 1e-6 m is
+    // usual, 1e-5 m the bound. Velocities are differences of positions over the substep.
+    EXPECT_LE(worst, 1e-5);
+    EXPECT_LE(worst_speed, 1e-5 / info.substep);
+    EXPECT_GT(moved, 1e-3);
+    RecordProperty("worst_nm", int(worst * 1e9));
+    EXPECT_EQ(read<int>(device, on_device.at("resets"), size_t(c.strands)), expected.resets);
+}
+
+TEST_P(SimulatePass, AddsItsNodesToTheDensityInFixedPoint)
+{
+    const Case& c = GetParam();
+    const Device device = with_width(c.width);
+    const Buffers on_device = buffers(device);
+    simulate(device, on_device);
+    const std::vector<int> density = read<int>(device, on_device.at("density"), gradient.size());
+    if (!c.density)
+    {
+        EXPECT_EQ(density, std::vector<int>(gradient.size(), 0));
+        return;
+    }
+    // From where the kernel has put the nodes, so that only this sum is compared. The lanes that fill the last block
+    // must not count.
+    oracle::Strands after = state;
+    const size_t values = size_t(groom.blocks) * 16 * size_t(c.nodes) * 3;
+    after.position = from_blocks(read<float>(device, on_device.at("position"), values), c.strands, c.nodes);
+    const oracle::Density expected = oracle::add_density(after, c.resolution, info);
+    int wrong = 0, shares = 0;
+    for (size_t i = 0; i < density.size(); ++i)
+    {
+        // Each share is rounded to a whole unit; before that, a coordinate of up to 64 voxels carries 8e-6 of rounding,
+        // which 4096 units make 0.03.
+        wrong += std::abs(density[i] - expected.sum[i]) > (0.5 + 0.1) * expected.shares[i];
+        shares += expected.shares[i];
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(shares, 0);
+}
+
+TEST_P(SimulatePass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
+{
+    const Case& c = GetParam();
+    const Device device = with_width(c.width);
+    const Buffers sound = buffers(device);
+    simulate(device, sound);
+
+    const int bad = c.strands / 2;
+    state.position[size_t(bad * c.nodes + 2)].y = NAN;
+    const Buffers ill = buffers(device);
+    simulate(device, ill);
+
+    const size_t values = size_t(groom.blocks) * 16 * size_t(c.nodes) * 3;
+    for (const char* name : {"position", "velocity"})
+    {
+        const auto a = from_blocks(read<float>(device, sound.at(name), values), c.strands, c.nodes);
+        const auto b = from_blocks(read<float>(device, ill.at(name), values), c.strands, c.nodes);
+        for (int s = 0; s < c.strands; ++s)
+            for (int k = 0; k < c.nodes; ++k)
+            {
+                const size_t i = size_t(s * c.nodes + k);
+                ASSERT_TRUE(std::isfinite(b[i].x + b[i].y + b[i].z)) << name << " of strand " << s << ", node " << k;
+                if (s != bad)
+                    ASSERT_EQ(a[i], b[i]) << name << " of strand " << s << ", node " << k;
+            }
+    }
+    std::vector<int> resets(size_t(c.strands), 0);
+    resets[size_t(bad)] = 1;
+    EXPECT_EQ(read<int>(device, ill.at("resets"), size_t(c.strands)), resets);
+    EXPECT_EQ(read<int>(device, sound.at("resets"), size_t(c.strands)), std::vector<int>(size_t(c.strands), 0));
+
+    // The twin resets to the same shape.
+    oracle::simulate_pbd(state, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info);
+    const auto position = from_blocks(read<float>(device, ill.at("position"), values), c.strands, c.nodes);
+    for (int k = 0; k < c.nodes; ++k)
+        EXPECT_LE(glm::distance(position[size_t(bad * c.nodes + k)], state.position[size_t(bad * c.nodes + k)]), 1e-6);
+}
+
+void limp(HairParams& p) { p.solver_bending = 0.0f; }
+void rubber(HairParams& p)
+{
+    p.solver_stretching = 0.4f;
+    p.solver_sweeps = 1;
+    p.strand_spacing = 1.3f;
+    p.solver_iterations = 4;
+}
+void brush(HairParams& p)
+{
+    p.solver_bending = 0.8f;
+    p.solver_bending_scale = 1.5f;
+    p.solver_bending_attenuation = 0.5f;
+    p.forces_drag = 40.0f;
+    p.forces_gravity = -1.0f;
+}
+void calm_gusts(HairParams& p) { p.forces_turbulence = 0.0f; }
+void one_sweep(HairParams& p) { p.solver_iterations = 1; }
+
+INSTANTIATE_TEST_SUITE_P(All, SimulatePass,
+                         testing::Values(Case{"everything", 16, 16, 64, 248, true, true, true, false, nullptr},
+                                         Case{"everything_8_wide", 8, 16, 64, 17, true, true, true, false, brush},
+                                         Case{"everything_1_wide", 1, 16, 64, 17, true, true, true, false, nullptr},
+                                         Case{"nothing_but_gravity", 16, 16, 64, 248, false, false, false, false, limp},
+                                         Case{"one_strand_of_3", 16, 3, 8, 1, true, false, true, false, nullptr},
+                                         Case{"strands_of_5", 16, 5, 20, 17, false, true, false, false, rubber},
+                                         Case{"strands_of_5_in_light", 1, 5, 20, 33, false, false, true, true,
+                                              one_sweep},
+                                         Case{"strands_of_33", 16, 33, 20, 17, true, false, false, false, calm_gusts},
+                                         Case{"strands_of_33_8_wide", 8, 33, 8, 50, false, true, true, true, nullptr},
+                                         Case{"a_leap", 16, 16, 64, 40, true, true, true, true, brush}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
+} // namespace coif
