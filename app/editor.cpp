@@ -13,10 +13,11 @@
 namespace coif
 {
 
-static constexpr int kPanelWidth = 400;           // pixels of the window
-static constexpr int kMostSteps = 4;              // in one frame; what is over is dropped and counted
-static constexpr double kSettle = 1.5;            // s that a style lives before it is first seen
-static constexpr Uint32 kIdleWait = 50;           // ms between looks at a paused window
+static constexpr int kPanelWidth = 400; // pixels of the window
+static constexpr int kMostSteps = 4;    // in one frame; what is over is dropped and counted
+static constexpr double kSettle = 1.5;  // s that a style lives before it is first seen
+static constexpr Uint32 kIdleWait = 50; // ms between looks at a paused window
+static constexpr int kRedraw = 3;       // frames after an event: a window of the panel needs two to find its size
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
 template <typename Action> void Editor::guarded(Action&& action)
@@ -41,7 +42,8 @@ Editor::Editor(const Options& options)
     ImGui::StyleColorsDark();
     ImGui::GetStyle().FrameRounding = 3.0f;
     ImGui::GetStyle().WindowBorderSize = 0.0f;
-    for (const char* font : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
+    for (const char* font :
+         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
         if (std::filesystem::exists(font))
         {
             ImGui::GetIO().Fonts->AddFontFromFileTTF(font, 14.0f);
@@ -75,7 +77,7 @@ void Editor::apply()
     for (const ParamInfo& info : param_table())
         unsaved_ |= !same_value(style_, saved_, info);
     SDL_SetWindowTitle(window_.sdl(), fmt::format("{}{} - coif", style_.name(), unsaved_ ? " *" : "").c_str());
-    redraw_ = true;
+    redraw_ = kRedraw;
 }
 
 void Editor::take(const std::filesystem::path& file)
@@ -145,7 +147,7 @@ std::filesystem::path Editor::screenshot()
             message_ = "wrote " + std::filesystem::absolute(file).string();
             message_is_error_ = false;
         });
-    redraw_ = true;
+    redraw_ = kRedraw;
     return message_is_error_ ? std::filesystem::path() : file;
 }
 
@@ -162,7 +164,7 @@ void Editor::play(const std::string& motion)
 void Editor::handle_key(const SDL_Keysym& key)
 {
     const bool control = key.mod & KMOD_CTRL, shift = key.mod & KMOD_SHIFT;
-    redraw_ = true;
+    redraw_ = kRedraw;
     if (control && key.sym == SDLK_s)
     {
         if (shift || style_.file.empty())
@@ -256,14 +258,14 @@ void Editor::handle_mouse(const SDL_Event& event)
         else if (held_.what != Grab::NONE)
             hand_ = dragged_head(held_, camera_, x, y, view_width_, view_height_);
     }
-    redraw_ = true;
+    redraw_ = kRedraw;
 }
 
 void Editor::handle(const SDL_Event& event)
 {
     ImGui_ImplSDL2_ProcessEvent(&event);
     const ImGuiIO& io = ImGui::GetIO();
-    redraw_ = true;
+    redraw_ = kRedraw;
     switch (event.type)
     {
     case SDL_QUIT:
@@ -309,14 +311,15 @@ void Editor::advance(double seconds)
         hand_ = simulation_->hand();
     camera_.target += simulation_->jumped() - jumped_; // a teleport takes the view along
     jumped_ = simulation_->jumped();
-    redraw_ |= step_once_ || !paused_;
+    if (step_once_ || !paused_)
+        redraw_ = std::max(redraw_, 1);
     step_once_ = false;
 }
 
 bool Editor::frame()
 {
     SDL_Event event;
-    if (paused_ && !redraw_ && SDL_WaitEventTimeout(&event, kIdleWait))
+    if (paused_ && redraw_ <= 0 && SDL_WaitEventTimeout(&event, kIdleWait))
         handle(event);
     while (SDL_PollEvent(&event))
         handle(event);
@@ -324,9 +327,9 @@ bool Editor::frame()
     const double seconds = double(tick - last_tick_) / double(SDL_GetPerformanceFrequency());
     last_tick_ = tick;
     advance(seconds);
-    if (closed_ || !redraw_)
+    if (closed_ || redraw_ <= 0)
         return !closed_;
-    redraw_ = false;
+    --redraw_;
     frame_ms_ = frames_++ == 0 ? 1e3 * seconds : frame_ms_ + 0.1 * (1e3 * seconds - frame_ms_);
 
     int width = 0, height = 0, pixels_wide = 0, pixels_high = 0;

@@ -79,7 +79,8 @@ class Editor
     std::string message_, save_as_;
     std::string screenshot_size_ = "as shown";
     Intent intent_;
-    bool unsaved_ = false, paused_ = false, step_once_ = false, redraw_ = true, closed_ = false;
+    bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
+    int redraw_ = 1; // frames that are still to be drawn though time may stand still
     bool show_panel_ = true, show_help_ = false, ask_save_as_ = false, ask_open_ = false, transparent_ = false;
     bool message_is_error_ = false;
     double frame_ms_ = 0.0;

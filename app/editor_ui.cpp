@@ -132,9 +132,11 @@ void Editor::draw_status()
     ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
     ImGui::SetNextWindowBgAlpha(0.35f);
     ImGui::Begin("figures", nullptr, plain);
-    ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3), paused_ ? ", paused" : "");
+    ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3),
+                paused_ ? ", paused" : "");
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
-    ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max, 100.0 * health_.stretch_mean);
+    ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
+                100.0 * health_.stretch_mean);
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     double sum = 0.0;
@@ -222,7 +224,8 @@ void Editor::draw_dialogs()
 
     if (std::exchange(ask_save_as_, false))
     {
-        save_as_ = style_.file.empty() ? "untitled.toml" : (style_.file.parent_path() / (style_.name() + "-2.toml")).string();
+        save_as_ =
+            style_.file.empty() ? "untitled.toml" : (style_.file.parent_path() / (style_.name() + "-2.toml")).string();
         ImGui::OpenPopup("save as");
     }
     center();
@@ -262,7 +265,8 @@ void Editor::draw_dialogs()
             }
         ImGui::Separator();
         ImGui::SetNextItemWidth(480.0f);
-        const bool enter = ImGui::InputTextWithHint("##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
+        const bool enter =
+            ImGui::InputTextWithHint("##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
         if ((ImGui::Button("Open") || enter) && !save_as_.empty())
         {
             open(save_as_);

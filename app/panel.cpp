@@ -31,7 +31,8 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
     switch (info.kind)
     {
     case Kind::FLOAT:
-        changed = ImGui::SliderFloat(id, v, info.min, info.max, *info.unit ? fmt::format("%.4g {}", info.unit).c_str() : "%.4g",
+        changed = ImGui::SliderFloat(id, v, info.min, info.max,
+                                     *info.unit ? fmt::format("%.4g {}", info.unit).c_str() : "%.4g",
                                      slider_flags(info, usual[0]));
         break;
     case Kind::INT:
@@ -99,7 +100,8 @@ static bool draw_colliders(std::vector<Collider>& colliders)
         changed |= ImGui::Checkbox("on the head", &c.on_head);
         ImGui::SameLine();
         const bool remove = ImGui::SmallButton("remove");
-        changed |= ImGui::DragFloat3("center", &c.center.x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
+        changed |=
+            ImGui::DragFloat3("center", &c.center.x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
         changed |= ImGui::SliderFloat("radius", &c.radius, 0.005f, 1.0f, "%.3f m",
                                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
         ImGui::PopID();
@@ -133,7 +135,8 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         if (strcmp(group, info.group))
         {
             group = info.group;
-            open = ImGui::CollapsingHeader(group, *state.filter || strcmp(group, "scalp") ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+            open = ImGui::CollapsingHeader(
+                group, *state.filter || strcmp(group, "scalp") ? ImGuiTreeNodeFlags_DefaultOpen : 0);
         }
         if (!open)
             continue;
@@ -173,7 +176,8 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
             ImGui::TextUnformatted(info.help);
             if (!info.on_host() && info.kind != Kind::CHOICE && info.kind != Kind::COLOR)
-                ImGui::TextDisabled("%s", fmt::format("{} to {} {}; ctrl-click to type", info.min, info.max, info.unit).c_str());
+                ImGui::TextDisabled(
+                    "%s", fmt::format("{} to {} {}; ctrl-click to type", info.min, info.max, info.unit).c_str());
             ImGui::PopTextWrapPos();
             ImGui::EndTooltip();
         }

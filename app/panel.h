@@ -19,8 +19,8 @@ struct PanelState
     char filter[64] = {};                      // shows only what contains it
 };
 
-// One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the default
-// is marked and has a button that takes it back. True when something changed; the values lie in their ranges.
+// One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the
+// default is marked and has a button that takes it back. True when something changed; the values lie in their ranges.
 bool draw_params_panel(Hairstyle& style, PanelState& state);
 
 } // namespace coif

@@ -72,7 +72,8 @@ void frame_head(Camera& camera, const Simulation& simulation)
     const Pose& head = simulation.solver().head();
     // Hair hangs: the middle of what is to be seen lies below the head's own.
     const double reach = 0.55 * double(groom.extent) + 0.35 * double(groom.longest);
-    camera.target = head.origin + head.turn * glm::dvec3(groom.center) - glm::dvec3(0.0, 0.25 * double(groom.longest), 0.0);
+    camera.target =
+        head.origin + head.turn * glm::dvec3(groom.center) - glm::dvec3(0.0, 0.25 * double(groom.longest), 0.0);
     camera.distance = std::clamp(1.35 * reach / std::sin(0.5 * camera.fov), 0.02, 100.0);
 }
 

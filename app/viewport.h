@@ -41,11 +41,11 @@ struct Grab
         TURN_HEAD,
         COLLIDER
     } what = NONE;
-    size_t collider = 0;             // of the style
-    glm::dvec3 start{0.0};           // where it was taken, world
-    glm::dvec3 origin_before{0.0};   // of the head or the collider, world
+    size_t collider = 0;           // of the style
+    glm::dvec3 start{0.0};         // where it was taken, world
+    glm::dvec3 origin_before{0.0}; // of the head or the collider, world
     glm::dquat turn_before{1, 0, 0, 0};
-    double x = 0, y = 0;             // of the press, pixels
+    double x = 0, y = 0; // of the press, pixels
 };
 
 // What lies under the pixel: a collider of the style, the head, or nothing (then the drag orbits).

@@ -21,10 +21,13 @@ static inline void keep_lengths(real* x, real* y, real* z, real rest, float stre
     {
         const real dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], dz = z[i + 1] - z[i];
         const real move = strength * excess(dx, dy, dz, rest);
-        const float near = i > 1 ? 0.5f : 0.0f, far = i > 1 ? 0.5f : 1.0f;
-        x[i] += near * move * dx;
-        y[i] += near * move * dy;
-        z[i] += near * move * dz;
+        const float far = i > 1 ? 0.5f : 1.0f;
+        if (i > 1) // node 1 is left alone rather than moved by zero times what may be NaN: bad strands restart from it
+        {
+            x[i] += 0.5f * move * dx;
+            y[i] += 0.5f * move * dy;
+            z[i] += 0.5f * move * dz;
+        }
         x[i + 1] -= far * move * dx;
         y[i + 1] -= far * move * dy;
         z[i + 1] -= far * move * dz;

@@ -165,34 +165,38 @@ static void collide(Vec* x, int nodes, const std::vector<float4>& colliders)
 static double inverse_mass(int node) { return node < 2 ? 0.0 : 1.0; }
 
 // Distance constraint of Mueller et al. 2007, eq. 10 and 11, times a strength.
-static void keep_distance(Vec& a, Vec& b, double mass_a, double mass_b, double rest, double strength)
+static void keep_distance(Vec& a, Vec& b, double mass_a, double mass_b, double rest, double strength,
+                          const std::function<Vec()>& rounding)
 {
     const double distance = glm::length(b - a);
     if (distance < 1e-12 || mass_a + mass_b == 0.0)
         return;
     const Vec correction = strength * (distance - rest) / distance / (mass_a + mass_b) * (b - a);
-    a += mass_a * correction;
-    b -= mass_b * correction;
+    if (mass_a > 0.0) // zero times NaN is NaN
+        a += mass_a * correction + (rounding ? rounding() : Vec(0.0));
+    if (mass_b > 0.0)
+        b -= mass_b * correction + (rounding ? rounding() : Vec(0.0));
 }
 
 static void sweep(Vec* x, int nodes, double rest, double strength, const std::vector<float4>& colliders,
-                  const HairParams& params, const StepInfo& info)
+                  const HairParams& params, const StepInfo& info, const std::function<Vec()>& rounding)
 {
     collide(x, nodes, colliders);
     for (const int first : {2, 1})
         for (int i = first; i + 1 < nodes; i += 2)
-            keep_distance(x[i], x[i + 1], inverse_mass(i), inverse_mass(i + 1), rest, strength);
+            keep_distance(x[i], x[i + 1], inverse_mass(i), inverse_mass(i + 1), rest, strength, rounding);
     // Thesis' angular constraint: node i as far from node 0 as on a straight strand; eq. 5.6 for its attenuation.
     for (int i = 2; i < nodes; ++i)
     {
         const double bend =
             std::clamp(double(info.bend) / std::pow(i - 1.0, double(params.solver_bending_attenuation)), 0.0, 1.0);
-        keep_distance(x[0], x[i], 0.0, 1.0, rest * i * params.solver_bending_scale, bend);
+        keep_distance(x[0], x[i], 0.0, 1.0, rest * i * params.solver_bending_scale, bend, rounding);
     }
 }
 
 void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradient, int resolution,
-                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info)
+                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
+                  const std::function<Vec()>& rounding)
 {
     const int n = strands.nodes;
     const double h = info.substep;
@@ -225,7 +229,7 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
 
         for (int k = 1; k <= params.solver_iterations; ++k)
             sweep(x.data(), n, rest, double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0),
-                  colliders, params, info);
+                  colliders, params, info, rounding);
         collide(x.data(), n, colliders);
 
         bool finite = true;

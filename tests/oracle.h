@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace coif::oracle
@@ -32,9 +33,12 @@ struct Forces
     bool wind = false, repulsion = false;
 };
 
-// The guides' substep: thesis 5.1.2. `gradient` is per voxel, in fixed-point units a voxel.
+// The guides' substep: thesis 5.1.2. `gradient` is per voxel, in fixed-point units a voxel. `rounding`, if given, is
+// added to every node that a constraint has moved: with the size of a float's rounding it shows how far the rounding of
+// single operations may carry the result.
 void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradient, int resolution,
-                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info);
+                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
+                  const std::function<Vec()>& rounding = {});
 
 // Nodes 1 and outwards shared out over eight voxels each, thesis 5.1.3. Not rounded; `shares` counts the nodes that had
 // a share in a voxel, each of which may be rounded by a half.

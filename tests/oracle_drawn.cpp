@@ -71,7 +71,9 @@ std::vector<double> transmittance(const std::vector<int>& occupied, int resoluti
             int round_u = 0, round_v = 0; // how often the ray has come around
             for (int passed = 0; passed < r; ++passed)
             {
-                const double u = i + double(info.sweep.x) * passed, v = j + double(info.sweep.y) * passed;
+                // The slant's product is rounded as a float's: where a ray just reaches the border (slants of 3/5 after
+                // five slices), rounding decides in which round it is.
+                const double u = i + double(info.sweep.x * float(passed)), v = j + double(info.sweep.y * float(passed));
                 const int now_u = int(std::floor(std::floor(u) / r)), now_v = int(std::floor(std::floor(v) / r));
                 if (now_u != round_u || now_v != round_v)
                     tau = before = 0.0;

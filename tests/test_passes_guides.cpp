@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace coif
 {
@@ -127,27 +129,50 @@ TEST_P(SimulatePass, MovesTheGuidesAsTheTwinDoes)
     const auto position = from_blocks(read<float>(device, on_device.at("position"), values), c.strands, c.nodes);
     const auto velocity = from_blocks(read<float>(device, on_device.at("velocity"), values), c.strands, c.nodes);
 
-    oracle::Strands expected = state;
-    oracle::simulate_pbd(expected, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info);
-    double worst = 0.0, worst_speed = 0.0, moved = 0.0;
-    for (size_t i = 0; i < position.size(); ++i)
+    const auto twin = [&](const std::function<oracle::Vec()>& rounding)
     {
-        const auto distance = [](glm::dvec3 a, glm::dvec3 b)
+        oracle::Strands strands = state;
+        oracle::simulate_pbd(strands, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info, rounding);
+        return strands;
+    };
+    const auto deviation = [&](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
+    {
+        std::vector<double> most(size_t(c.strands), 0.0);
+        for (size_t i = 0; i < a.size(); ++i)
         {
-            const double d = glm::distance(a, b);
-            return std::isfinite(d) ? d : INFINITY;
-        };
-        worst = std::max(worst, distance(position[i], expected.position[i]));
-        worst_speed = std::max(worst_speed, distance(velocity[i], expected.velocity[i]));
-        moved = std::max(moved, distance(position[i], state.position[i]));
+            const double d = glm::distance(a[i], b[i]);
+            double& m = most[i / size_t(c.nodes)];
+            m = std::max(m, std::isfinite(d) ? d : INFINITY);
+        }
+        return most;
+    };
+    const oracle::Strands expected = twin({});
+    // A coordinate of a quarter of a metre rounds by up to 1.5e-8 m in every operation. What that may come to differs
+    // from strand to strand: over-relaxed sweeps of a chain that spheres squeeze throw nodes past each other, and the
+    // direction between two that nearly meet hangs on their last bits. So the twin is asked, with roundings at random.
+    std::vector<double> allowed(size_t(c.strands), 1e-7);
+    for (int trial = 0; trial < 8; ++trial)
+    {
+        const oracle::Strands rounded_off = twin([&] { return random.vector(1.5e-8); });
+        const std::vector<double> carried = deviation(rounded_off.position, expected.position);
+        for (size_t s = 0; s < carried.size(); ++s)
+            allowed[s] = std::max(allowed[s], 1e-7 + 4.0 * carried[s]);
     }
-    // Coordinates below half a metre round at 3e-8 m. Ten sweeps round each about 60 times, and over-relaxation (a
-    // factor below 2) hands such an error on, at most enlarged some ten times before the last plain sweep: 1e-6 m is
-    // usual, 1e-5 m the bound. Velocities are differences of positions over the substep.
-    EXPECT_LE(worst, 1e-5);
-    EXPECT_LE(worst_speed, 1e-5 / info.substep);
+    std::vector<double> error = deviation(position, expected.position);
+    const std::vector<double> speed_error = deviation(velocity, expected.velocity);
+    for (int s = 0; s < c.strands; ++s)
+    {
+        EXPECT_LE(error[size_t(s)], allowed[size_t(s)]) << "strand " << s;
+        // A difference of positions over the substep, and the rounding of a speed of up to 10 m/s.
+        EXPECT_LE(speed_error[size_t(s)], allowed[size_t(s)] / info.substep + 5e-6) << "strand " << s;
+    }
+    // Most strands are not like that.
+    std::nth_element(error.begin(), error.begin() + c.strands / 2, error.end());
+    EXPECT_LE(error[size_t(c.strands / 2)], 2e-6);
+    double moved = 0.0;
+    for (const double d : deviation(position, state.position))
+        moved = std::max(moved, d);
     EXPECT_GT(moved, 1e-3);
-    RecordProperty("worst_nm", int(worst * 1e9));
     EXPECT_EQ(read<int>(device, on_device.at("resets"), size_t(c.strands)), expected.resets);
 }
 
@@ -204,7 +229,9 @@ TEST_P(SimulatePass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
                 const size_t i = size_t(s * c.nodes + k);
                 ASSERT_TRUE(std::isfinite(b[i].x + b[i].y + b[i].z)) << name << " of strand " << s << ", node " << k;
                 if (s != bad)
+                {
                     ASSERT_EQ(a[i], b[i]) << name << " of strand " << s << ", node " << k;
+                }
             }
     }
     std::vector<int> resets(size_t(c.strands), 0);

@@ -13,10 +13,13 @@
 #include <sstream>
 #include <string>
 
+namespace coif
+{
+namespace fs = std::filesystem;
+}
+
 namespace coif::test
 {
-
-namespace fs = std::filesystem;
 
 // A folder that goes when the test does.
 class Scratch

@@ -68,8 +68,12 @@ TEST(Groom, is_the_same_for_the_same_seed_and_another_for_another)
 TEST(Groom, the_ratio_says_how_many_strands_are_copies)
 {
     HairParams params;
-    for (const auto& [strands, ratio, copies] :
-         {std::tuple{4096, 0.0f, 0}, {4096, 0.25f, 1024}, {4096, 1.0f, 4096}, {10, 0.33f, 3}, {0, 0.5f, 0}, {1, 1.0f, 1}})
+    for (const auto& [strands, ratio, copies] : {std::tuple{4096, 0.0f, 0},
+                                                 {4096, 0.25f, 1024},
+                                                 {4096, 1.0f, 4096},
+                                                 {10, 0.33f, 3},
+                                                 {0, 0.5f, 0},
+                                                 {1, 1.0f, 1}})
     {
         params.interpolation_strands = strands;
         params.interpolation_ratio = ratio;
@@ -169,8 +173,9 @@ TEST(Groom, no_weight_is_given_to_guides_that_leave_the_head_the_other_way)
         const int nearest = int(std::max_element(weights, weights + 3) - weights);
         for (int k = 0; k < 3; ++k)
             if (weights[k] > 0.0f)
-                ASSERT_GE(glm::dot(of_lane(groom.root_direction, guides[k]), of_lane(groom.root_direction, guides[nearest])),
-                          0.0f);
+                ASSERT_GE(
+                    glm::dot(of_lane(groom.root_direction, guides[k]), of_lane(groom.root_direction, guides[nearest])),
+                    0.0f);
     }
 }
 
@@ -190,15 +195,14 @@ TEST(Groom, copies_are_their_guide_turned_about_the_heads_centre_and_stay_on_the
         {
             const float yaw = s.weights.x, pitch = s.weights.y;
             ASSERT_LE(std::max(std::abs(yaw), std::abs(pitch)), spread * std::numbers::pi_v<float> / 180.0f + 1e-6f);
-            const glm::quat turn =
-                glm::angleAxis(yaw, glm::vec3(0, 1, 0)) * glm::angleAxis(pitch, glm::vec3(1, 0, 0));
+            const glm::quat turn = glm::angleAxis(yaw, glm::vec3(0, 1, 0)) * glm::angleAxis(pitch, glm::vec3(1, 0, 0));
             const glm::vec3 from = scalp.positions[size_t(s.guide0)] - scalp.center;
             const glm::vec3 root = vec(s.root) / 2.0f;
             ASSERT_LT(glm::length(scalp.center + turn * from - root), 1e-5f);
             float nearest = INFINITY;
             for (const glm::uvec3& t : scalp.triangles)
-                nearest = std::min(nearest, triangle_distance(root, scalp.positions[t.x], scalp.positions[t.y],
-                                                              scalp.positions[t.z]));
+                nearest = std::min(
+                    nearest, triangle_distance(root, scalp.positions[t.x], scalp.positions[t.y], scalp.positions[t.z]));
             ASSERT_LE(nearest, 0.02f * scalp.extent + 1e-6f);
             turned += yaw != 0.0f;
         }
@@ -228,7 +232,8 @@ TEST(Groom, cuts_lie_between_one_less_the_variation_and_one)
 TEST(Groom, roots_rise_from_the_scalp_at_their_lift_within_its_variation)
 {
     const Scalp& scalp = whole_scalp();
-    for (const auto& [lift, variation] : {std::pair{0.0f, 0.0f}, {0.0f, 6.0f}, {55.0f, 6.0f}, {90.0f, 0.0f}, {95.0f, 60.0f}})
+    for (const auto& [lift, variation] :
+         {std::pair{0.0f, 0.0f}, {0.0f, 6.0f}, {55.0f, 6.0f}, {90.0f, 0.0f}, {95.0f, 60.0f}})
     {
         HairParams params;
         params.root_lift = lift;
@@ -240,7 +245,8 @@ TEST(Groom, roots_rise_from_the_scalp_at_their_lift_within_its_variation)
             const glm::vec3 d = of_lane(groom.root_direction, g);
             ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
             const glm::vec3 n = scalp.normals[size_t(g)];
-            const float angle = std::atan2(glm::length(glm::cross(n, d)), glm::dot(n, d)) * 180.0f / std::numbers::pi_v<float>;
+            const float angle =
+                std::atan2(glm::length(glm::cross(n, d)), glm::dot(n, d)) * 180.0f / std::numbers::pi_v<float>;
             least = std::min(least, angle);
             most = std::max(most, angle);
         }
@@ -265,7 +271,8 @@ TEST(Groom, hair_grows_away_from_the_crown_and_sweep_turns_it_counter_clockwise)
     for (int g = 0; g < plain.guides; ++g)
     {
         const glm::vec3 n = scalp.normals[size_t(g)];
-        const glm::vec3 a = of_lane(plain.root_direction, g) - n * 0.5f, b = of_lane(swept.root_direction, g) - n * 0.5f;
+        const glm::vec3 a = of_lane(plain.root_direction, g) - n * 0.5f,
+                        b = of_lane(swept.root_direction, g) - n * 0.5f;
         if (n.y < 0.999f)
             EXPECT_LT(a.y, 0.0f) << g;
         EXPECT_NEAR(glm::dot(a, b), 0.0f, 1e-4f) << g;
@@ -341,9 +348,9 @@ TEST(Groom, a_scalp_of_slivers_and_loose_vertices_grows_finite_hair)
 {
     const Scratch scratch;
     const std::string texts[] = {
-        "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",                          // no area
-        "v 0 0 0\nv 1 0 0\nv 2 0 1\nf 1 1 1\n",                          // no triangle to speak of
-        "v 0 0 0\nv 0.1 0 0\nv 0 0 0.1\nv 5 5 5\nv -5 5 5\nf 1 3 2\n",  // guides that no triangle holds
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",                        // no area
+        "v 0 0 0\nv 1 0 0\nv 2 0 1\nf 1 1 1\n",                        // no triangle to speak of
+        "v 0 0 0\nv 0.1 0 0\nv 0 0 0.1\nv 5 5 5\nv -5 5 5\nf 1 3 2\n", // guides that no triangle holds
     };
     for (const std::string& text : texts)
         for (const float ratio : {0.0f, 0.5f, 1.0f})
@@ -353,12 +360,14 @@ TEST(Groom, a_scalp_of_slivers_and_loose_vertices_grows_finite_hair)
             params.interpolation_strands = 100;
             params.root_crown = F4(0, 0, 0, 0);
             const Groom groom = grow(params, load_scalp(scratch.write("odd.obj", text)));
-            for (const std::vector<float>* values : {&groom.root_position, &groom.root_direction, &groom.segment_length})
+            for (const std::vector<float>* values :
+                 {&groom.root_position, &groom.root_direction, &groom.segment_length})
                 for (const float value : *values)
                     ASSERT_TRUE(std::isfinite(value)) << text;
             for (const DrawnStrand& s : groom.drawn)
             {
-                ASSERT_TRUE(std::isfinite(s.root.x + s.root.y + s.root.z + s.weights.x + s.weights.y + s.weights.z)) << text;
+                ASSERT_TRUE(std::isfinite(s.root.x + s.root.y + s.root.z + s.weights.x + s.weights.y + s.weights.z))
+                    << text;
                 ASSERT_LT(std::max({s.guide0, s.guide1, s.guide2}), groom.guides);
             }
         }

@@ -22,7 +22,8 @@ using test::shipped;
 
 TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
 {
-    for (const auto& [name, guides] : {std::pair{"scalp.obj", 248u}, {"scalp_top.obj", 230u}, {"scalp_strip.obj", 249u}})
+    for (const auto& [name, guides] :
+         {std::pair{"scalp.obj", 248u}, {"scalp_top.obj", 230u}, {"scalp_strip.obj", 249u}})
     {
         const Scalp scalp = load_scalp(shipped(name));
         EXPECT_EQ(scalp.positions.size(), guides) << name;
@@ -103,7 +104,8 @@ TEST(Scalp, the_sphere_fits_wherever_the_head_is_and_whatever_its_size)
         std::string text;
         for (int i = 0; i < 60; ++i)
         {
-            const glm::dvec3 d = glm::normalize(glm::dvec3(between(random, -1, 1), between(random, 0.1, 1), between(random, -1, 1)));
+            const glm::dvec3 d =
+                glm::normalize(glm::dvec3(between(random, -1, 1), between(random, 0.1, 1), between(random, -1, 1)));
             const glm::dvec3 p = center + radius * d;
             text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
         }
@@ -133,8 +135,8 @@ TEST(Scalp, names_normals_texture_and_materials_beside_the_triangles_are_passed_
 TEST(Scalp, vertices_that_no_triangle_uses_look_away_from_the_centre)
 {
     const Scratch scratch;
-    const Scalp scalp = load_scalp(
-        scratch.write("loose.obj", "v 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 0 -0.1 0\nv 0 0 -0.1\nf 1 2 3\n"));
+    const Scalp scalp =
+        load_scalp(scratch.write("loose.obj", "v 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 0 -0.1 0\nv 0 0 -0.1\nf 1 2 3\n"));
     EXPECT_NEAR(glm::dot(scalp.normals[3], glm::vec3(0, -1, 0)), 1.0f, 1e-4f);
     EXPECT_NEAR(glm::dot(scalp.normals[4], glm::vec3(0, 0, -1)), 1.0f, 1e-4f);
 }
@@ -173,7 +175,8 @@ double sampled_distance(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c)
 TEST(Mesh, distance_to_a_triangle_is_that_to_its_nearest_point)
 {
     std::mt19937 random(17);
-    const auto point = [&](double size) { return glm::vec3(between(random, -size, size), between(random, -size, size), between(random, -size, size)); };
+    const auto point = [&](double size)
+    { return glm::vec3(between(random, -size, size), between(random, -size, size), between(random, -size, size)); };
     for (int trial = 0; trial < 300; ++trial)
     {
         const glm::vec3 a = point(1), b = point(1), c = point(1), p = point(trial % 2 ? 3 : 0.5);
@@ -197,7 +200,7 @@ TEST(Mesh, distance_to_a_triangle_without_area_is_finite_and_no_less_than_to_its
 aiScene* tetrahedron()
 {
     auto* scene = new aiScene;
-    scene->mMaterials = new aiMaterial*[1]{new aiMaterial};
+    scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
     scene->mNumMaterials = 1;
     auto* mesh = new aiMesh;
     mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
@@ -212,7 +215,7 @@ aiScene* tetrahedron()
         mesh->mFaces[f].mNumIndices = 3;
         mesh->mFaces[f].mIndices = new unsigned[3]{corners[f][0], corners[f][1], corners[f][2]};
     }
-    scene->mMeshes = new aiMesh*[1]{mesh};
+    scene->mMeshes = new aiMesh* [1] { mesh };
     scene->mNumMeshes = 1;
     scene->mRootNode = new aiNode("root");
     auto* child = new aiNode("child");
@@ -226,10 +229,13 @@ aiScene* tetrahedron()
 
 std::vector<glm::vec3> sorted(std::vector<glm::vec3> points)
 {
-    std::sort(points.begin(), points.end(), [](glm::vec3 a, glm::vec3 b)
-              { return std::lround(a.x) != std::lround(b.x)   ? a.x < b.x
-                       : std::lround(a.y) != std::lround(b.y) ? a.y < b.y
-                                                              : a.z < b.z; });
+    std::sort(points.begin(), points.end(),
+              [](glm::vec3 a, glm::vec3 b)
+              {
+                  return std::lround(a.x) != std::lround(b.x)   ? a.x < b.x
+                         : std::lround(a.y) != std::lround(b.y) ? a.y < b.y
+                                                                : a.z < b.z;
+              });
     return points;
 }
 
@@ -242,8 +248,9 @@ fs::path exported(const Scratch& scratch, const std::string& format, const std::
     return file;
 }
 
-const std::pair<const char*, const char*> kFormats[] = {{"obj", "obj"},    {"ply", "ply"},  {"plyb", "ply"}, {"gltf2", "gltf"},
-                                                        {"glb2", "glb"}, {"fbx", "fbx"}, {"fbxa", "fbx"}};
+const std::pair<const char*, const char*> kFormats[] = {{"obj", "obj"},    {"ply", "ply"},  {"plyb", "ply"},
+                                                        {"gltf2", "gltf"}, {"glb2", "glb"}, {"fbx", "fbx"},
+                                                        {"fbxa", "fbx"}};
 
 TEST(Mesh, obj_ply_gltf_and_fbx_give_the_same_triangles_with_their_nodes_applied)
 {
@@ -299,7 +306,8 @@ TEST(Mesh, what_is_no_mesh_is_told_and_never_crashes)
             const std::string error = error_of([&] { load_mesh(file); });
             EXPECT_EQ(error.rfind(file.string() + ": ", 0), 0u) << suffix << ": " << error;
         }
-    EXPECT_EQ(error_of([&] { load_mesh(scratch / "none.obj"); }), (scratch / "none.obj").string() + ": there is no such file");
+    EXPECT_EQ(error_of([&] { load_mesh(scratch / "none.obj"); }),
+              (scratch / "none.obj").string() + ": there is no such file");
     EXPECT_NE(error_of([&] { load_mesh(scratch.folder()); }), "no error");
     EXPECT_NE(error_of([&] { load_mesh(scratch.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")); }), "no error");
 }
@@ -328,10 +336,8 @@ TEST(Mesh, corners_that_are_not_there_and_numbers_that_are_none_are_told)
     const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
     const std::pair<const char*, std::string> broken[] = {
-        {"far.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n"},
-        {"below.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -7\n"},
-        {"nan.ply", ply + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"},
-        {"far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999\n"},
+        {"far.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n"},   {"below.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -7\n"},
+        {"nan.ply", ply + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"},  {"far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999\n"},
         {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -7\n"},
     };
     for (const auto& [name, text] : broken)

@@ -47,7 +47,8 @@ TEST(Params, every_path_is_unique_and_found)
         EXPECT_EQ(find_param(info.path()), &info) << info.path();
     }
     EXPECT_GT(seen.size(), 50u);
-    for (const char* unknown : {"", ".", "strand", "strand.", ".length", "strand.lengt", "strand.length ", "Strand.length"})
+    for (const char* unknown :
+         {"", ".", "strand", "strand.", ".length", "strand.lengt", "strand.length ", "Strand.length"})
         EXPECT_EQ(find_param(unknown), nullptr) << unknown;
 }
 
@@ -122,17 +123,21 @@ TEST(Params, every_kind_scope_and_effect_has_a_name)
 
 TEST(Params, the_nearest_name_is_what_a_slip_of_the_finger_meant)
 {
-    const std::pair<const char*, const char*> slips[] = {
-        {"strand.lenght", "strand.length"},       {"strnd.length", "strand.length"},
-        {"length", "strand.length"},              {"hair.length", "strand.length"},
-        {"forces.stretching", "solver.stretching"}, {"look.root_colour", "look.root_color"},
-        {"light_direction", "look.light_direction"}, {"colliders", "collider"},
-        {"wave.binormal_frequncy", "wave.binormal_frequency"}};
+    const std::pair<const char*, const char*> slips[] = {{"strand.lenght", "strand.length"},
+                                                         {"strnd.length", "strand.length"},
+                                                         {"length", "strand.length"},
+                                                         {"hair.length", "strand.length"},
+                                                         {"forces.stretching", "solver.stretching"},
+                                                         {"look.root_colour", "look.root_color"},
+                                                         {"light_direction", "look.light_direction"},
+                                                         {"colliders", "collider"},
+                                                         {"wave.binormal_frequncy", "wave.binormal_frequency"}};
     for (const auto& [slip, meant] : slips)
         EXPECT_EQ(nearest_param(slip), meant) << slip;
     for (const ParamInfo& info : param_table())
         EXPECT_EQ(nearest_param(info.path()), info.path());
-    for (const std::string& odd : {std::string(), std::string("."), std::string(3 << 20, 'x'), std::string("\0\xff", 2)})
+    for (const std::string& odd :
+         {std::string(), std::string("."), std::string(3 << 20, 'x'), std::string("\0\xff", 2)})
         EXPECT_NE(find_param(nearest_param(odd)), nullptr);
 }
 
@@ -194,8 +199,9 @@ TEST(Params, the_device_reads_radians_and_linear_colours_and_all_else_as_authore
             {
                 double v[3];
                 for (double& x : v)
-                    x = info.kind == Kind::INT || info.kind == Kind::CHOICE ? std::floor(between(random, info.min, info.max))
-                                                                            : between(random, info.min, info.max);
+                    x = info.kind == Kind::INT || info.kind == Kind::CHOICE
+                            ? std::floor(between(random, info.min, info.max))
+                            : between(random, info.min, info.max);
                 set_numbers(authored, info, v);
             }
         const HairParams device = device_params(authored);

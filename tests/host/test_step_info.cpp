@@ -48,8 +48,8 @@ const double kDegree = std::numbers::pi / 180.0;
 TEST(StepInfo, drag_keeps_and_gains_what_its_integral_says_down_to_none)
 {
     for (const double seconds : {1.0 / 60.0, 1.0 / 240.0, 1e-5})
-        for (const double drag : {0.0, 1e-9, 1e-6, 0.99e-6 / seconds, 1e-6 / seconds, 1.01e-6 / seconds, 0.5, 3.0, 100.0,
-                                  1e6 * seconds})
+        for (const double drag :
+             {0.0, 1e-9, 1e-6, 0.99e-6 / seconds, 1e-6 / seconds, 1.01e-6 / seconds, 0.5, 3.0, 100.0, 1e6 * seconds})
         {
             HairParams params;
             params.forces_drag = float(drag);
@@ -99,8 +99,9 @@ TEST(StepInfo, over_relaxation_is_youngs_for_a_strand_of_that_many_links)
 TEST(StepInfo, only_a_jump_beyond_a_quarter_metre_or_a_right_angle_is_a_teleport)
 {
     const Pose before{{100, 0, 0}, glm::angleAxis(0.3, glm::dvec3(0, 1, 0)), {}};
-    const auto jumps = [&](double metres, double degrees)
-    { return info_of({}, before, moved_to({100, metres, 0}, 0.3 + degrees * kDegree)).teleport; };
+    const auto jumps = [&](double metres, double degrees) {
+        return info_of({}, before, moved_to({100, metres, 0}, 0.3 + degrees * kDegree)).teleport;
+    };
     EXPECT_FALSE(jumps(0.0, 0.0));
     EXPECT_FALSE(jumps(0.2499, 0.0));
     EXPECT_TRUE(jumps(0.2501, 0.0));
@@ -284,8 +285,8 @@ bool in_grid(const StepInfo& info, int resolution, glm::dvec3 p)
 void expect_all_hair_in_grid(const Scalp& scalp, const char* name)
 {
     std::mt19937 random(5);
-    for (const auto& [resolution, spacing, scale] :
-         {std::tuple{8, 1.0f, 1.0f}, std::tuple{64, 1.0f, 1.0f}, std::tuple{64, 3.0f, 0.5f}, std::tuple{128, 0.5f, 3.0f}})
+    for (const auto& [resolution, spacing, scale] : {std::tuple{8, 1.0f, 1.0f}, std::tuple{64, 1.0f, 1.0f},
+                                                     std::tuple{64, 3.0f, 0.5f}, std::tuple{128, 0.5f, 3.0f}})
     {
         HairParams params;
         params.grid_resolution = resolution;
@@ -325,10 +326,12 @@ TEST(StepInfo, the_grid_holds_the_hair_of_a_nearly_flat_patch_far_from_its_spher
     std::string obj;
     for (int z = 0; z < 5; ++z)
         for (int x = 0; x < 5; ++x)
-            obj += fmt::format("v {} {} {}\n", 0.02 * x, 1.5 - 0.0005 * ((x - 2) * (x - 2) + (z - 2) * (z - 2)), 0.02 * z);
+            obj +=
+                fmt::format("v {} {} {}\n", 0.02 * x, 1.5 - 0.0005 * ((x - 2) * (x - 2) + (z - 2) * (z - 2)), 0.02 * z);
     for (int z = 0; z < 4; ++z)
         for (int x = 0; x < 4; ++x)
-            obj += fmt::format("f {0} {1} {2}\nf {2} {1} {3}\n", 5 * z + x + 1, 5 * z + x + 6, 5 * z + x + 2, 5 * z + x + 7);
+            obj += fmt::format("f {0} {1} {2}\nf {2} {1} {3}\n", 5 * z + x + 1, 5 * z + x + 6, 5 * z + x + 2,
+                               5 * z + x + 7);
     const Scratch scratch;
     expect_all_hair_in_grid(load_scalp(scratch.write("patch.obj", obj)), "patch");
 }

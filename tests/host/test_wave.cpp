@@ -103,8 +103,9 @@ TEST(Wave, values_stay_within_one_and_the_table_closes_on_itself)
             const std::vector<float> table = wave_table(with_randomness(randomness, randomness, seed));
             for (size_t side = 0; side < 2; ++side)
             {
-                // No step is longer than the steepest wave allows, and neither is the one from the end to the beginning:
-                // d/dwave of height * sin(2 pi (wave + lead)), with lead <= 0.4 and its slope <= 0.4 * 2 * 1.5.
+                // No step is longer than the steepest wave allows, and neither is the one from the end to the
+                // beginning: d/dwave of height * sin(2 pi (wave + lead)), with lead <= 0.4 and its slope <= 0.4 * 2
+                // * 1.5.
                 const double steepest = 2.0 * std::numbers::pi * (1.0 + 1.2 * randomness) + 1.5 * randomness;
                 for (size_t i = 0; i < kWaveSamples; ++i)
                 {
@@ -119,7 +120,8 @@ TEST(Wave, values_stay_within_one_and_the_table_closes_on_itself)
 
 TEST(Wave, randomness_changes_only_its_own_side_and_hangs_on_the_seed)
 {
-    const std::vector<float> calm = wave_table(with_randomness(0.0f, 0.0f)), half = wave_table(with_randomness(0.0f, 0.5f));
+    const std::vector<float> calm = wave_table(with_randomness(0.0f, 0.0f)),
+                             half = wave_table(with_randomness(0.0f, 0.5f));
     int differing = 0;
     for (size_t i = 0; i < kWaveSamples; ++i)
     {

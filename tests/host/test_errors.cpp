@@ -1,0 +1,371 @@
+// What coif says to a broken style: the words are part of the program.
+#include "sim/simulation.h"
+#include "tests/host/scratch.h"
+
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+using test::error_of;
+using test::Scratch;
+
+std::string told(const std::string& text)
+{
+    return error_of([&] { parse_hairstyle(text, "bob.toml"); });
+}
+
+std::string repeated(const std::string& text, int times)
+{
+    std::string all;
+    for (int i = 0; i < times; ++i)
+        all += text;
+    return all;
+}
+
+TEST(BrokenStyle, is_told_with_file_line_column_and_what_would_be_right)
+{
+    const std::pair<std::string, std::string> cases[] = {
+        {"[strand]\nlenght = 0.2\n",
+         "bob.toml:2:1: no parameter is called 'strand.lenght'; the nearest is strand.length"},
+        {"[hair]\nlength = 0.2\n", "bob.toml:2:1: no parameter is called 'hair.length'; the nearest is strand.length"},
+        {"[forces]\nstretching = 1\n",
+         "bob.toml:2:1: no parameter is called 'forces.stretching'; the nearest is solver.stretching"},
+        {"length = 0.2\n", "bob.toml:1:10: expected a [group], found the key 'length'; did you mean strand.length?"},
+        {"[[strand]]\nlength = 0.2\n",
+         "bob.toml:1:1: expected a [group], found the key 'strand'; did you mean strand.nodes?"},
+        {"strand = 3\n", "bob.toml:1:10: expected a [group], found the key 'strand'; did you mean strand.nodes?"},
+        // Wrong types, of each kind.
+        {"[strand]\nlength = \"long\"\n", "bob.toml:2:10: strand.length must be a number, not text"},
+        {"[strand]\nlength = true\n", "bob.toml:2:10: strand.length must be a number, not true or false"},
+        {"[strand]\nlength = [0.2]\n", "bob.toml:2:10: strand.length must be a number, not a list"},
+        {"[strand]\nlength = 2024-02-30\n", "bob.toml:2:10: not valid TOML"},
+        {"[strand]\nlength = 2024-02-28\n", "bob.toml:2:10: strand.length must be a number, not a date or time"},
+        {"[strand]\nlength = 07:32:00\n", "bob.toml:2:10: strand.length must be a number, not a date or time"},
+        {"[strand.length]\n", "bob.toml:1:1: strand.length must be a number, not a table"},
+        {"[strand]\nlength = {}\n", "bob.toml:2:10: strand.length must be a number, not a table"},
+        {"[strand]\nnodes = 16.0\n", "bob.toml:2:9: strand.nodes must be a whole number, not a number"},
+        {"[strand]\nnodes = \"16\"\n", "bob.toml:2:9: strand.nodes must be a whole number, not text"},
+        {"[forces]\nwind = 3\n", "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a number"},
+        {"[forces]\nwind = [1, 2]\n",
+         "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
+        {"[forces]\nwind = [1, 2, 3, 4]\n",
+         "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
+        {"[forces]\nwind = [1, 2, \"3\"]\n",
+         "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
+        {"[look]\ntip_color = \"red\"\n",
+         "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not text"},
+        {"[look]\ntip_color = \"#12345\"\n",
+         "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not text"},
+        {"[look]\ntip_color = \"#12345g\"\n",
+         "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not text"},
+        {"[look]\ntip_color = \"# 1 2 3\"\n",
+         "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not text"},
+        {"[look]\ntip_color = 0xffffff\n",
+         "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not a number"},
+        {"[look]\ntip_color = [255, 0, 0]\n", "bob.toml:2:13: look.tip_color is 255, but must lie in [0, 1]"},
+        {"[smoothing]\ncurve = \"bezier\"\n",
+         "bob.toml:2:9: smoothing.curve must be one of linear, cosine, cubic, catmull_rom"},
+        {"[smoothing]\ncurve = 3\n", "bob.toml:2:9: smoothing.curve must be one of linear, cosine, cubic, catmull_rom"},
+        {"[smoothing]\ncurve = \"Linear\"\n",
+         "bob.toml:2:9: smoothing.curve must be one of linear, cosine, cubic, catmull_rom"},
+        {"[scalp]\nmesh = 3\n", "bob.toml:2:8: scalp.mesh must be text in quotes, not a number"},
+        {"[scalp]\nmesh = \"a\\u0000b\"\n", "bob.toml:2:8: scalp.mesh must not hold a zero byte"},
+        // Numbers that will not do.
+        {"[strand]\nlength = -1\n", "bob.toml:2:10: strand.length is -1, but must lie in [0.002, 1.5] m"},
+        {"[strand]\nlength = nan\n", "bob.toml:2:10: strand.length is nan, but must be a finite number"},
+        {"[strand]\nlength = inf\n", "bob.toml:2:10: strand.length is inf, but must be a finite number"},
+        {"[strand]\nlength = -inf\n", "bob.toml:2:10: strand.length is -inf, but must be a finite number"},
+        {"[strand]\nlength = 1e300\n", "bob.toml:2:10: strand.length is 1e+300, but must lie in [0.002, 1.5] m"},
+        {"[forces]\nwind = [0, nan, 0]\n", "bob.toml:2:8: forces.wind is nan, but must be a finite number"},
+        {"[interpolation]\nstrands = -1\n", "bob.toml:2:11: interpolation.strands is -1, but must lie in [0, 200000]"},
+        {"[interpolation]\nstrands = 9223372036854775807\n",
+         "bob.toml:2:11: interpolation.strands is 9.223372036854775807e+18, but must lie in [0, 200000]"},
+        {"[strand]\nnodes = -9223372036854775808\n",
+         "bob.toml:2:9: strand.nodes is -9.223372036854776e+18, but must lie in [3, 64]"},
+        {"[strand]\nnodes = 4294967312\n", "bob.toml:2:9: strand.nodes is 4294967312, but must lie in [3, 64]"},
+        {"[strand]\nnodes = 65\n", "bob.toml:2:9: strand.nodes is 65, but must lie in [3, 64]"},
+        // Colliders.
+        {"collider = 3\n", "bob.toml:1:12: collider must be written as [[collider]] tables"},
+        {"[collider]\ncenter = [0, 0, 0]\nradius = 1\n",
+         "bob.toml:1:1: collider must be written as [[collider]] tables"},
+        {"collider = [3]\n", "bob.toml:1:13: collider must be written as [[collider]] tables"},
+        {"[[collider]]\ncenter = [0, 0, 0]\n", "bob.toml:1:1: a collider needs center and radius"},
+        {"[[collider]]\nradius = 1\n", "bob.toml:1:1: a collider needs center and radius"},
+        {"[[collider]]\ncenter = [0, 0]\nradius = 1\n",
+         "bob.toml:2:10: collider.center must be three numbers in metres"},
+        {"[[collider]]\ncenter = [0, 0, 101]\nradius = 1\n",
+         "bob.toml:2:10: collider.center is 101, but must lie in [-100, 100] m"},
+        {"[[collider]]\ncenter = [0, nan, 0]\nradius = 1\n",
+         "bob.toml:2:10: collider.center is nan, but must lie in [-100, 100] m"},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = 0\n",
+         "bob.toml:3:10: collider.radius is 0, but must lie in [0.001, 100] m"},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = \"big\"\n",
+         "bob.toml:3:10: collider.radius must be a number, not text"},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\non = \"neck\"\n",
+         "bob.toml:4:6: collider.on must be \"head\" or \"world\""},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\nmass = 2\n",
+         "bob.toml:4:8: a collider has no 'mass'; it has center, radius and on"},
+    };
+    for (const auto& [text, expected] : cases)
+        if (expected.ends_with("not valid TOML"))
+            EXPECT_NE(told(text).find(": not valid TOML: "), std::string::npos) << text << "\n" << told(text);
+        else
+            EXPECT_EQ(told(text), expected) << text;
+}
+
+TEST(BrokenStyle, that_is_no_toml_is_told_with_its_place)
+{
+    const std::pair<std::string, std::string> cases[] = {
+        {"[strand\nlength = 0.2\n", "bob.toml:1:8: not valid TOML: "},
+        {"[strand]\nlength 0.2\n", "bob.toml:2:8: not valid TOML: "},
+        {"[strand]\nlength = \n", "bob.toml:2:10: not valid TOML: "},
+        {"[strand]\nlength = 0.2\nlength = 0.3\n", "bob.toml:3:"},
+        {"[strand]\nlength = 0.2\n[strand]\nnodes = 16\n", "bob.toml:3:"},
+        {"[scalp]\nmesh = \"open\n", "bob.toml:2:"},
+        {"[strand]\nlength = 0.2 0.3\n", "bob.toml:2:14: not valid TOML: "},
+        {"[strand]\nlength = 99999999999999999999\n", "bob.toml:2:"},
+    };
+    for (const auto& [text, begin] : cases)
+    {
+        EXPECT_EQ(told(text).rfind(begin, 0), 0u) << text << "\n" << told(text);
+        EXPECT_NE(told(text).find("not valid TOML: "), std::string::npos) << told(text);
+    }
+}
+
+TEST(BrokenStyle, bytes_that_are_no_text_are_told)
+{
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 200; ++trial)
+    {
+        std::string junk;
+        for (int i = 0; i < 64; ++i)
+            junk += char(random());
+        EXPECT_EQ(told("a" + junk).rfind("bob.toml:", 0), 0u) << trial;
+    }
+    EXPECT_NE(told("[strand]\n# \xff\nlength = 0.2\n"), "no error");
+    EXPECT_NE(told(std::string("[strand]\nlength = 0.2\n\0", 23)), "no error");
+}
+
+TEST(BrokenStyle, empty_files_marks_of_byte_order_and_windows_lines_are_none)
+{
+    for (const std::string text : {"", "\n", "# nothing\n", "\xEF\xBB\xBF", "[strand]\n", "collider = []\n"})
+        EXPECT_EQ(told(text), "no error") << text;
+    EXPECT_EQ(parse_hairstyle("\xEF\xBB\xBF[strand]\r\nlength = 0.5\r\n", "bob.toml").params.strand_length, 0.5f);
+    EXPECT_EQ(told("\xEF\xBB\xBF[strand]\r\nlength = 5\r\n"),
+              "bob.toml:2:10: strand.length is 5, but must lie in [0.002, 1.5] m");
+    EXPECT_EQ(parse_hairstyle("strand.length = 1", "bob.toml").params.strand_length, 1.0f);
+}
+
+TEST(BrokenStyle, nested_beyond_reason_is_told_and_crashes_nothing)
+{
+    const int deep = 10000;
+    EXPECT_EQ(told("a = " + repeated("[", deep)).rfind("bob.toml:1:", 0), 0u);
+    EXPECT_EQ(told("a = " + repeated("[", deep) + repeated("]", deep)).rfind("bob.toml:1:", 0), 0u);
+    EXPECT_EQ(told("a = " + repeated("{a=", deep)).rfind("bob.toml:1:", 0), 0u);
+    EXPECT_NE(told("[" + repeated("a.", deep) + "a]\nb = 1\n"), "no error");
+}
+
+TEST(BrokenStyle, keys_of_a_million_dots_are_told_and_crash_nothing)
+{
+    const int deep = 1000000;
+    EXPECT_NE(told(repeated("a.", deep) + "a = 1\n"), "no error");
+    EXPECT_NE(told("[" + repeated("a.", deep) + "a]\n"), "no error");
+    EXPECT_NE(told("[[" + repeated("a.", deep) + "a]]\n"), "no error");
+    EXPECT_NE(told(repeated("'a' . ", deep / 4) + "a = 1\n"), "no error");
+    EXPECT_NE(told("x = \"\"\"a\"b\"\"\"\n" + repeated("a.", deep) + "a = 1\n!"), "no error");
+    const Scratch scratch;
+    const fs::path file = scratch.write("deep.toml", repeated("a.", deep) + "a = 1\n");
+    EXPECT_NE(error_of([&] { load_hairstyle(file); }), "no error");
+    EXPECT_NE(error_of([&] { load_colliders(file); }), "no error");
+    EXPECT_NE(error_of([&] { load_motion(file); }), "no error");
+    Hairstyle style;
+    EXPECT_NE(error_of([&] { assign(style, "strand.length={" + repeated("a.", deep) + "a = 1}"); }), "no error");
+}
+
+TEST(BrokenStyle, too_many_colliders_are_told)
+{
+    const std::string one = "[[collider]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    EXPECT_EQ(told(repeated(one, 256)), "no error");
+    EXPECT_EQ(told(repeated(one, 257)), "bob.toml:1:1: 257 colliders are more than the 256 that coif takes");
+}
+
+TEST(BrokenStyle, a_file_that_is_none_is_told)
+{
+    const Scratch scratch;
+    EXPECT_EQ(error_of([&] { load_hairstyle(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_hairstyle(scratch / "none.toml"); }),
+              (scratch / "none.toml").string() + ": there is no such file");
+    const fs::path large = scratch.write("large.toml", "#" + std::string(5 << 20, 'x'));
+    EXPECT_EQ(error_of([&] { load_hairstyle(large); }),
+              large.string() + ": is larger than the 4194304 bytes that coif reads of such a file");
+    const fs::path long_key = scratch.write("key.toml", std::string(3 << 20, 'k') + " = 1\n");
+    EXPECT_NE(error_of([&] { load_hairstyle(long_key); }), "no error");
+}
+
+TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style_names_it)
+{
+    const Scratch scratch;
+    const auto loaded = [&](const std::string& text)
+    {
+        const Hairstyle style = load_hairstyle(scratch.write("bob.toml", text));
+        return error_of([&] { load_assets(style); });
+    };
+    const std::string bob = (scratch / "bob.toml").string();
+    EXPECT_EQ(loaded(""), "no error");
+    EXPECT_EQ(
+        loaded("\n[head]\nmesh = 'none.obj'\n").rfind(bob + ":3:8: head.mesh: no file 'none.obj', neither as ", 0), 0u);
+    EXPECT_EQ(
+        loaded("[scalp]\nmesh = 'none.obj'\n").rfind(bob + ":2:8: scalp.mesh: no file 'none.obj', neither as ", 0), 0u);
+    EXPECT_EQ(loaded("[scalp]\nmesh = ''\n"), bob + ":2:8: scalp.mesh must name an OBJ");
+    const std::string quad = scratch.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n").string();
+    EXPECT_EQ(loaded("[scalp]\nmesh = 'quad.obj'\n"),
+              bob + ":2:8: " + quad +
+                  ":5: a scalp must be triangles, but this face has 4 corners; triangulate it on export");
+    const std::string spheres = scratch.write("s.toml", "[[collider]]\ncenter = [0,0,0]\n").string();
+    EXPECT_EQ(loaded("[head]\nspheres = 's.toml'\n"),
+              bob + ":2:11: " + spheres + ":1:1: a collider needs center and radius");
+    scratch.write("s.toml", "[strand]\nlength = 1\n");
+    EXPECT_EQ(loaded("[head]\nspheres = 's.toml'\n"),
+              bob + ":2:11: " + spheres + ":1:2: expected [[collider]] tables only, found 'strand'");
+    const std::string junk = scratch.write("junk.ply", "junk").string();
+    EXPECT_EQ(
+        loaded("[head]\nmesh = 'junk.ply'\n").rfind(bob + ":2:8: " + junk + ": is no mesh that coif can read: ", 0),
+        0u);
+    fs::create_directory(scratch / "folder");
+    EXPECT_NE(loaded("[head]\nmesh = 'folder'\n"), "no error");
+    EXPECT_NE(loaded("[scalp]\nmesh = 'folder'\n"), "no error");
+    EXPECT_EQ(loaded("[head]\nmesh = ''\nspheres = ''\n"), "no error");
+}
+
+TEST(BrokenScalp, is_told_with_its_line)
+{
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 0 1\n";
+    const std::pair<std::string, std::string> cases[] = {
+        {"", ":1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)"},
+        {"Dear reader,\nthis is no mesh.\n",
+         ":1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)"},
+        {corners, ": a scalp needs triangles (f a b c), but has none"},
+        {corners + "v 1 0 1\n# quad\nf 1 2 4 3\n",
+         ":6: a scalp must be triangles, but this face has 4 corners; triangulate it on export"},
+        {corners + "f 1 2 3\nf 1 2\nf 1 3 2\n",
+         ":5: a scalp must be triangles, but this face has 2 corners; triangulate it on export"},
+        {corners + "f 1 2 3\nf" + repeated(" 1 2 3", 87) + repeated(" 1", 2) + "\n",
+         ":5: a scalp must be triangles, but this face has 263 corners; triangulate it on export"},
+        {corners + "f" + repeated(" 1 2 3", 86) + " 1\n",
+         ":4: a scalp must be triangles, but this face has 259 corners; triangulate it on export"},
+        {corners + "f 1 2 3\n\nf 1 2 9\n", ":6: this face names vertex 9, but there are 3"},
+        {corners + "f 1 2 2147483647\n", ":4: this face names vertex 2147483647, but there are 3"},
+        {corners + "f 1 2 -9\n", ":4: this face names vertex -9, but there are 3"},
+        {corners + "f 0 1 2\n", ":4: this face names vertex 0, but there are 3"},
+        {corners + "f 1 2 x\n", ":4: a face must name three vertices by number"},
+        {corners + "f 1 2 99999999999999\n", ":4: a face must name three vertices by number"},
+        {"v 0 0 0\nv 1 nan 0\nv 0 0 1\nf 1 2 3\n", ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 0 0 0\nv 1 inf 0\nv 0 0 1\nf 1 2 3\n", ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 0 0 0\nv 1 1e300 0\nv 0 0 1\nf 1 2 3\n",
+         ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 0 0 0\nv 20000 0 0\nv 0 0 1\nf 1 2 3\n",
+         ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 0 0 0\nv 1 zero 0\nv 0 0 1\nf 1 2 3\n",
+         ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 0 0 0\nv 1 0\nv 0 0 1\nf 1 2 3\n", ":2: a vertex must be three finite numbers within 10 km, in metres"},
+        {"v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", ": all vertices of the scalp lie in one place"},
+        {corners + "f 1 2 3\nt x 2000000000/2000000000/2000000000 1\nt y -1/-1/-1\n", "no error"},
+    };
+    const Scratch scratch;
+    for (const auto& [text, expected] : cases)
+    {
+        const fs::path file = scratch.write("scalp.obj", text);
+        EXPECT_EQ(error_of([&] { load_scalp(file); }), (expected == "no error" ? "" : file.string()) + expected)
+            << text.substr(0, 200);
+    }
+}
+
+TEST(BrokenScalp, one_cut_short_is_told)
+{
+    const Scratch scratch;
+    const std::string whole = test::bytes_of(test::shipped("scalp.obj"));
+    const fs::path half =
+        scratch.write("half.obj", whole.substr(0, whole.size() / 2)); // amid the faces or the vertices
+    EXPECT_NE(error_of([&] { load_scalp(half); }), "no error");
+    // Amid the last face: the second corner stays.
+    const fs::path last = scratch.write("last.obj", whole.substr(0, whole.find_last_of(' ')));
+    EXPECT_NE(error_of([&] { load_scalp(last); }).find("this face has 2 corners"), std::string::npos);
+}
+
+TEST(BrokenScalp, more_guides_than_coif_takes_are_told)
+{
+    std::string text;
+    for (int i = 0; i < 65537; ++i)
+        text += i % 2 ? "v 1 0 0\n" : "v 0 0 1\n";
+    const Scratch scratch;
+    const fs::path file = scratch.write("dense.obj", text + "f 1 2 3\n");
+    EXPECT_EQ(error_of([&] { load_scalp(file); }),
+              file.string() + ": 65537 vertices are more guides than the 65536 that coif takes");
+}
+
+TEST(Assignment, takes_toml_values_and_bare_words)
+{
+    Hairstyle style;
+    for (const char* good :
+         {"strand.length=0.2", "strand.nodes=20", "strand.nodes= 20", "forces.wind=[1, 2, 3]", "look.tip_color=#8a5a3c",
+          "look.tip_color=\"#8a5a3c\"", "look.root_color=[0, 0.5, 1]", "smoothing.curve=linear",
+          "smoothing.curve=\"linear\"", "scalp.mesh=my file.obj", "head.mesh=", "head.spheres=\"a=b.toml\""})
+        EXPECT_EQ(error_of([&] { assign(style, good); }), "no error") << good;
+    EXPECT_EQ(style.params.strand_length, 0.2f);
+    EXPECT_EQ(style.params.strand_nodes, 20);
+    EXPECT_EQ(style.params.forces_wind, F4(1, 2, 3, 0));
+    EXPECT_EQ(style.params.look_tip_color.x, float(0x8a / 255.0));
+    EXPECT_EQ(style.params.smoothing_curve, 0);
+    EXPECT_EQ(style.host.scalp_mesh, "my file.obj");
+    EXPECT_EQ(style.host.head_mesh, "");
+    EXPECT_EQ(style.host.head_spheres, "a=b.toml");
+    EXPECT_EQ(style.places.at("scalp.mesh"), "--set scalp.mesh");
+}
+
+TEST(Assignment, that_will_not_do_is_told_and_changes_nothing)
+{
+    const std::pair<const char*, const char*> cases[] = {
+        {"strand.length", "--set strand.length: expected group.key=value"},
+        {"", "--set : expected group.key=value"},
+        {"strand.lenght=1",
+         "--set strand.lenght=1: no parameter is called 'strand.lenght'; the nearest is strand.length"},
+        {"strand.length=", "--set strand.length=: strand.length must be a number, not text"},
+        {"strand.length=long", "--set strand.length=long: 'long' is no TOML value"},
+        {"strand.length=0.2\n[x]", "--set strand.length=0.2\n[x]: '0.2\n[x]' is no TOML value"},
+        {"strand.length=-1", "--set strand.length=-1: strand.length is -1, but must lie in [0.002, 1.5] m"},
+        {"strand.length=nan", "--set strand.length=nan: strand.length is nan, but must be a finite number"},
+        {"strand.nodes=2.5", "--set strand.nodes=2.5: strand.nodes must be a whole number, not a number"},
+        {"smoothing.curve=round",
+         "--set smoothing.curve=round: smoothing.curve must be one of linear, cosine, cubic, catmull_rom"},
+        {"look.tip_color=#12",
+         "--set look.tip_color=#12: look.tip_color must be a colour like \"#8a5a3c\" or three numbers "
+         "from 0 to 1, not text"},
+        {"forces.wind=[1, 2", "--set forces.wind=[1, 2: '[1, 2' is no TOML value"},
+        {"collider=3", "--set collider=3: collider must be a list of [[collider]] tables, not a number"},
+        {"scalp.mesh=\"open", "--set scalp.mesh=\"open: '\"open' is no TOML value"},
+    };
+    for (const auto& [assignment, expected] : cases)
+    {
+        Hairstyle style;
+        EXPECT_EQ(error_of([&] { assign(style, assignment); }), expected);
+        EXPECT_TRUE(style.places.empty());
+        EXPECT_EQ(style.host, HostParams{});
+        EXPECT_EQ(style.params.strand_length, HairParams{}.strand_length);
+    }
+}
+
+TEST(Assignment, a_text_that_is_no_utf8_cannot_be_saved_and_harms_nothing)
+{
+    const Scratch scratch;
+    const fs::path file = scratch.write("bob.toml", "[strand]\nlength = 0.2\n");
+    Hairstyle style = load_hairstyle(file);
+    assign(style, "head.mesh=\xff\xfe.obj");
+    EXPECT_NE(error_of([&] { save_hairstyle(style, file); }), "no error");
+    EXPECT_EQ(test::bytes_of(file), "[strand]\nlength = 0.2\n");
+}
+
+} // namespace
+} // namespace coif

@@ -1,0 +1,219 @@
+// The editor in a real window: mouse and keys come from the X server, as a person's would.
+#include "app/editor.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace coif;
+namespace fs = std::filesystem;
+
+namespace
+{
+class EditorWindow : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        if (!std::getenv("DISPLAY"))
+            GTEST_SKIP() << "there is no display: run under xvfb-run";
+        before = fs::current_path();
+        folder = fs::temp_directory_path() / ("coif_editor_" + std::to_string(getpid()));
+        fs::create_directories(folder);
+        fs::current_path(folder); // screenshots go to the caller's folder
+        std::ofstream("style.toml") << "# mine\n[strand]\nlength = 0.2 # short\n[interpolation]\nstrands = 300\n";
+        // The window is to open under its own driver, not the headless one of other tests.
+        unsetenv("SDL_VIDEODRIVER");
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, nullptr);
+        Options options;
+        options.style = "style.toml";
+        editor = std::make_unique<Editor>(options);
+        frames(3);
+        // Without a window manager nobody gives the window the keyboard.
+        xdotool("windowfocus $(xdotool search --onlyvisible --name coif | tail -n 1)");
+        frames(2);
+    }
+    void TearDown() override
+    {
+        editor.reset();
+        if (!folder.empty())
+        {
+            fs::current_path(before);
+            fs::remove_all(folder);
+        }
+    }
+
+    void frames(int count)
+    {
+        for (int i = 0; i < count; ++i)
+            open = editor->frame();
+    }
+    // Waits for the X server to have passed the events on.
+    template <typename Condition> bool until(Condition&& condition)
+    {
+        for (int i = 0; i < 100; ++i)
+        {
+            frames(1);
+            if (condition())
+                return true;
+        }
+        return false;
+    }
+    void xdotool(const std::string& command)
+    {
+        ASSERT_EQ(std::system(("xdotool " + command + " > /dev/null").c_str()), 0) << command;
+    }
+    // Window pixels to the screen's.
+    std::string at(double x, double y)
+    {
+        int left = 0, top = 0;
+        SDL_GetWindowPosition(editor->window(), &left, &top);
+        return std::to_string(left + int(x)) + " " + std::to_string(top + int(y));
+    }
+    void drag(double x0, double y0, double x1, double y1, const std::string& button = "1")
+    {
+        xdotool("mousemove " + at(x0, y0));
+        frames(3);
+        xdotool("mousedown " + button);
+        frames(3);
+        for (int i = 1; i <= 5; ++i)
+        {
+            xdotool("mousemove " + at(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5));
+            frames(2);
+        }
+    }
+    void release(const std::string& button = "1")
+    {
+        xdotool("mouseup " + button);
+        frames(3);
+    }
+    static std::string contents(const fs::path& file)
+    {
+        std::ifstream in(file);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    fs::path before, folder;
+    std::unique_ptr<Editor> editor;
+    bool open = true;
+};
+} // namespace
+
+TEST_F(EditorWindow, a_drag_on_the_head_moves_it_and_the_hair_follows)
+{
+    const double x = editor->view_width() / 2.0, y = 330.0;
+    const Pose rest = editor->simulation().solver().head();
+    drag(x, y, x + 120.0, y);
+    EXPECT_TRUE(until([&] { return editor->simulation().solver().head().origin.x > rest.origin.x + 0.03; }));
+    const glm::dvec3 moved = editor->simulation().solver().head().origin;
+    EXPECT_NEAR(moved.y, rest.origin.y, 0.02);
+    release();
+    frames(10);
+    EXPECT_NEAR(glm::distance(editor->simulation().solver().head().origin, moved), 0.0, 1e-6)
+        << "it stays where it was let go";
+    for (const int resets : editor->simulation().solver().resets())
+        EXPECT_EQ(resets, 0);
+}
+
+TEST_F(EditorWindow, with_ctrl_the_head_turns_and_beside_it_the_camera_orbits)
+{
+    const double x = editor->view_width() / 2.0, y = 330.0;
+    xdotool("keydown ctrl");
+    frames(3);
+    drag(x, y, x + 100.0, y);
+    EXPECT_TRUE(until([&] { return std::abs(editor->simulation().solver().head().turn.y) > 0.1; }));
+    release();
+    xdotool("keyup ctrl");
+    const double yaw = editor->camera().yaw;
+    drag(12.0, 600.0, 112.0, 600.0);
+    EXPECT_TRUE(until([&] { return std::abs(editor->camera().yaw - yaw) > 0.3; }));
+    release();
+}
+
+TEST_F(EditorWindow, a_slider_moved_by_the_mouse_changes_the_hair_and_the_file_when_saved)
+{
+    const WidgetPlace place = editor->panel().places.at("strand.length");
+    const double y = 0.5 * (place.top + place.bottom), width = place.right - place.left;
+    drag(place.left + 0.3 * width, y, place.left + 0.7 * width, y);
+    EXPECT_TRUE(until([&] { return editor->style().params.strand_length > 0.3f; }));
+    release();
+    EXPECT_TRUE(editor->unsaved());
+    EXPECT_FLOAT_EQ(editor->simulation().solver().groom().longest, editor->style().params.strand_length);
+    EXPECT_EQ(contents("style.toml"), "# mine\n[strand]\nlength = 0.2 # short\n[interpolation]\nstrands = 300\n")
+        << "nothing is written before it is asked for";
+
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key ctrl+s");
+    EXPECT_TRUE(until([&] { return !editor->unsaved(); }));
+    const std::string saved = contents("style.toml");
+    EXPECT_EQ(saved.rfind("# mine\n[strand]\nlength = 0.", 0), 0u) << saved;
+    EXPECT_NE(saved.find(" # short\n"), saved.npos) << "the author's comments stay: " << saved;
+    EXPECT_EQ(load_hairstyle("style.toml").params.strand_length, editor->style().params.strand_length);
+}
+
+TEST_F(EditorWindow, a_screenshot_key_writes_a_picture_of_the_view)
+{
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key p");
+    EXPECT_TRUE(until([&] { return fs::exists("style-001.png"); }));
+    const Image image = load_png("style-001.png");
+    EXPECT_EQ(image.width, editor->view_width());
+    EXPECT_EQ(image.height, 720);
+    int different = 0; // from the corner's backdrop
+    for (size_t i = 0; i < image.pixels.size(); i += 4)
+        different += std::abs(int(image.pixels[i]) - int(image.pixels[0])) > 40;
+    EXPECT_GT(different, image.width * image.height / 50) << "there is a head in it";
+}
+
+TEST_F(EditorWindow, space_pauses_and_a_full_stop_takes_one_step)
+{
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key space");
+    ASSERT_TRUE(until([&] { return editor->paused(); }));
+    const long steps = editor->simulation().steps();
+    frames(5);
+    EXPECT_EQ(editor->simulation().steps(), steps);
+    xdotool("key period");
+    EXPECT_TRUE(until([&] { return editor->simulation().steps() == steps + 1; }));
+}
+
+TEST_F(EditorWindow, a_broken_file_leaves_the_last_good_style_with_its_message)
+{
+    std::ofstream("broken.toml") << "[strand]\nlenght = 0.2\n";
+    editor->open("broken.toml");
+    frames(2);
+    EXPECT_EQ(editor->style().name(), "style");
+    EXPECT_NE(editor->message().find("broken.toml:2:1: no parameter is called 'strand.lenght'"), std::string::npos)
+        << editor->message();
+}
+
+TEST_F(EditorWindow, closing_with_unsaved_changes_asks_first)
+{
+    const WidgetPlace place = editor->panel().places.at("root.lift");
+    const double y = 0.5 * (place.top + place.bottom), width = place.right - place.left;
+    drag(place.left + 0.6 * width, y, place.left + 0.2 * width, y);
+    ASSERT_TRUE(until([&] { return editor->unsaved(); }));
+    release();
+    SDL_Event quit = {};
+    quit.type = SDL_QUIT;
+    SDL_PushEvent(&quit);
+    frames(4);
+    EXPECT_TRUE(open) << "it stays open to ask";
+}
+
+TEST_F(EditorWindow, every_motion_plays_by_its_key)
+{
+    xdotool("mousemove " + at(100.0, 650.0));
+    const std::vector<std::string> names = motion_names();
+    for (size_t i = 0; i < names.size(); ++i)
+    {
+        xdotool("key " + std::to_string(i + 1));
+        EXPECT_TRUE(until([&] { return editor->simulation().motion_name() == names[i]; })) << names[i];
+    }
+}

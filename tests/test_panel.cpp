@@ -1,0 +1,102 @@
+#include "app/panel.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+using namespace coif;
+
+namespace
+{
+// ImGui lays out and clips without a window or a GPU.
+class Panel : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {500.0f, 4000.0f}; // tall enough for every parameter
+        unsigned char* pixels = nullptr;
+        int width = 0, height = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    }
+    void TearDown() override { ImGui::DestroyContext(); }
+
+    bool frame()
+    {
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+        ImGui::Begin("panel");
+        const bool changed = draw_params_panel(style, state);
+        ImGui::End();
+        ImGui::Render();
+        return changed;
+    }
+
+    Hairstyle style;
+    PanelState state;
+};
+} // namespace
+
+TEST_F(Panel, shows_a_widget_for_every_parameter_and_changes_none_by_itself)
+{
+    const Hairstyle before;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FALSE(frame());
+    for (const ParamInfo& info : param_table())
+    {
+        EXPECT_TRUE(same_value(style, before, info)) << info.path();
+        if (info.kind != Kind::LIST && std::string(info.group) != "scalp") // that group starts closed
+        {
+            EXPECT_TRUE(state.places.contains(info.path())) << info.path();
+        }
+    }
+}
+
+TEST_F(Panel, a_drag_on_a_slider_changes_that_parameter_only)
+{
+    frame();
+    frame();
+    const WidgetPlace place = state.places.at("strand.length");
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {place.left + 0.8f * (place.right - place.left), 0.5f * (place.top + place.bottom)};
+    frame();
+    io.MouseDown[0] = true;
+    bool changed = frame();
+    changed |= frame();
+    io.MouseDown[0] = false;
+    frame();
+    EXPECT_TRUE(changed);
+    EXPECT_GT(style.params.strand_length, 0.3f);
+    Hairstyle expected;
+    expected.params.strand_length = style.params.strand_length;
+    for (const ParamInfo& info : param_table())
+        EXPECT_TRUE(same_value(style, expected, info)) << info.path();
+}
+
+TEST_F(Panel, what_differs_from_the_default_has_a_button_that_takes_it_back)
+{
+    style.params.root_lift = 12.0f;
+    frame();
+    frame();
+    const WidgetPlace place = state.places.at("root.lift");
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {place.right + ImGui::GetStyle().ItemInnerSpacing.x + 5.0f, 0.5f * (place.top + place.bottom)};
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    io.MouseDown[0] = false;
+    EXPECT_TRUE(frame());
+    EXPECT_EQ(style.params.root_lift, Hairstyle().params.root_lift);
+}
+
+TEST_F(Panel, the_filter_leaves_what_contains_it)
+{
+    snprintf(state.filter, sizeof state.filter, "wave.");
+    frame();
+    frame();
+    EXPECT_TRUE(state.places.contains("wave.normal_amplitude"));
+    EXPECT_FALSE(state.places.contains("strand.length"));
+}

@@ -1,0 +1,197 @@
+// The passes that make drawn strands against their double-precision twins. They are launched by Solver::draw(), since
+// how many strands a work-item takes is between the two of them.
+#include "sim/error.h"
+#include "tests/on_device.h"
+#include "tests/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace coif
+{
+namespace
+{
+
+struct Case
+{
+    const char* name;
+    int width, nodes, resolution, guides, drawn;
+    bool shadow, bodies;
+    void (*change)(HairParams&);
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class DrawnPasses : public testing::TestWithParam<Case>
+{
+  protected:
+    void SetUp() override
+    {
+        const Case& c = GetParam();
+        params.strand_nodes = c.nodes;
+        params.grid_resolution = c.resolution;
+        params.look_self_shadow = c.shadow ? 1.0f : 0.0f;
+        params.interpolation_strands = c.drawn;
+        if (c.change)
+            c.change(params);
+        groom = random_groom(random, c.guides, c.nodes, c.drawn);
+        const Pose head = {random.vector(3.0), glm::angleAxis(1.1, random.direction()), {}};
+        solver = std::make_unique<Solver>(device, params, groom, head);
+
+        std::vector<Collider> spheres;
+        for (int i = 0; c.bodies && i < 40; ++i) // some far away, many overlapping
+            spheres.push_back(
+                {glm::vec3(random.direction() * random.in(0.0, 0.3)), float(random.in(0.01, 0.06)), true});
+        solver->set_colliders(spheres);
+        colliders = solver->placed_colliders();
+
+        guides.nodes = c.nodes;
+        for (int g = 0; g < c.guides; ++g)
+        {
+            glm::dvec3 at = 0.09 * random.direction();
+            const glm::dvec3 on = random.direction() * 0.2 / (c.nodes - 2.0);
+            for (int k = 0; k < c.nodes; ++k)
+            {
+                guides.position.push_back(glm::dvec3(glm::vec3(at)));
+                at += on + 0.5 * glm::length(on) * random.vector(1.0);
+            }
+        }
+        const Buffers& buffers = solver->buffers();
+        write(device, buffers.at("position"), to_blocks(guides.position, c.guides, c.nodes));
+        std::vector<int> density;
+        for (int i = 0; i < c.resolution * c.resolution * c.resolution; ++i)
+            density.push_back(random.below(4096));
+        write(device, buffers.at("density"), density);
+        solver->draw();
+        read_params = device_params(params);
+        const size_t nodes = groom.drawn.size() * size_t(c.nodes);
+        position = read<float4>(device, buffers.at("drawn_position"), nodes);
+        frame = read<float4>(device, buffers.at("drawn_frame"), nodes);
+    }
+
+    glm::dvec3 node(size_t strand, int k) const
+    {
+        const float4 p = position[strand * size_t(groom.nodes) + size_t(k)];
+        return {p.x, p.y, p.z};
+    }
+
+    Random random{unsigned(GetParam().nodes * 31 + GetParam().resolution + GetParam().drawn)};
+    const Device device = with_width(GetParam().width);
+    HairParams params, read_params; // authored, and as the device reads them
+    Groom groom;
+    std::unique_ptr<Solver> solver;
+    std::vector<float4> colliders;
+    oracle::Strands guides;
+    std::vector<float4> position, frame;
+};
+
+TEST_P(DrawnPasses, NodesLieWhereTheTwinPutsThem)
+{
+    std::vector<double> errors;
+    for (size_t s = 0; s < groom.drawn.size(); ++s)
+    {
+        const auto make = int(s) < groom.drawn_multi ? oracle::interpolate_multi : oracle::interpolate_single;
+        const std::vector<oracle::Vec> expected = make(guides, groom.drawn[s], read_params, colliders, solver->info());
+        for (int k = 0; k < groom.nodes; ++k)
+        {
+            const double error = glm::distance(node(s, k), expected[size_t(k)]);
+            errors.push_back(std::isfinite(error) ? error : INFINITY);
+        }
+    }
+    std::sort(errors.begin(), errors.end());
+    // Sums of a dozen products of up to half a metre round to 1e-7 m. Where a node is pushed out, its direction away
+    // from a centre 1 cm off, over a way of up to 20 cm, carries that to 2e-6 m; one in a thousand leaves a sphere so
+    // nearly along its surface that the root of the rounding counts.
+    EXPECT_LE(errors[errors.size() / 2], 2e-7);
+    EXPECT_LE(errors[errors.size() * 99 / 100], 5e-6);
+    EXPECT_LE(errors[errors.size() * 999 / 1000], 1e-4);
+    EXPECT_LE(errors.back(), GetParam().bodies ? 2e-3 : 1e-6);
+}
+
+TEST_P(DrawnPasses, LightIsWhatTheTwinFetches)
+{
+    const Case& c = GetParam();
+    const StepInfo& info = solver->info();
+    const std::vector<float> depth =
+        read<float>(device, solver->buffers().at("depth"), size_t(c.resolution * c.resolution * c.resolution));
+    double worst = 0.0, darkest = 1.0;
+    for (size_t i = 0; i < position.size(); ++i)
+    {
+        const float4 p = position[i];
+        const double tau =
+            c.shadow ? oracle::light_depth(depth, {p.x, p.y, p.z}, c.resolution, read_params, info) : 0.0;
+        worst = std::max(worst, std::abs(p.w - std::exp(-tau)));
+        darkest = std::min(darkest, double(p.w));
+    }
+    // Grid coordinates of up to 64 carry 1e-5 of rounding, and tau changes by up to a few units from ray to ray.
+    EXPECT_LE(worst, c.shadow ? 1e-4 : 0.0);
+    if (c.shadow)
+        EXPECT_LT(darkest, 0.8);
+}
+
+TEST_P(DrawnPasses, FramesAreCarriedAsTheTwinCarriesThem)
+{
+    double worst = 0.0, worst_length = 0.0, worst_unit = 0.0;
+    for (size_t s = 0; s < groom.drawn.size(); ++s)
+    {
+        std::vector<oracle::Vec> nodes;
+        for (int k = 0; k < groom.nodes; ++k)
+            nodes.push_back(node(s, k));
+        const std::vector<oracle::FrameNode> expected = oracle::transport_frames(nodes, solver->info());
+        double sharpest = 2.0; // of 1 + cosine
+        for (int k = 0; k < groom.nodes; ++k)
+        {
+            if (k > 1)
+            {
+                const double a = glm::distance(nodes[size_t(k)], nodes[size_t(k - 1)]);
+                const double b = glm::distance(nodes[size_t(k - 1)], nodes[size_t(k - 2)]);
+                if (std::min(a, b) < 1e-4)
+                    break; // pushed onto one another: the direction between them is made of rounding
+                sharpest = std::min(sharpest, 1.0 + glm::dot(nodes[size_t(k)] - nodes[size_t(k - 1)],
+                                                             nodes[size_t(k - 1)] - nodes[size_t(k - 2)]) /
+                                                        (a * b));
+                if (sharpest < 0.01)
+                    break; // turns back on itself: about which axis is not well told
+            }
+            const float4 f = frame[s * size_t(groom.nodes) + size_t(k)];
+            const glm::dvec3 normal(f.x, f.y, f.z);
+            worst = std::max(worst, glm::distance(normal, expected[size_t(k)].normal) * sharpest);
+            worst_unit = std::max(worst_unit, std::abs(glm::length(normal) - 1.0));
+            worst_length = std::max(worst_length, std::abs(f.w - expected[size_t(k)].length));
+        }
+    }
+    // Segments of a centimetre between coordinates that round at 3e-8 m have directions good to 1e-5; the error grows
+    // with the number of nodes, and with a sharp turn, whose axis is told worse.
+    EXPECT_LE(worst, 1e-4);
+    EXPECT_LE(worst_unit, 1e-6);
+    EXPECT_LE(worst_length, 2e-6);
+}
+
+void waves(HairParams& p)
+{
+    p.wave_normal_amplitude = 0.02f;
+    p.wave_binormal_amplitude = 0.01f;
+    p.wave_binormal_begin = 0.4f;
+    p.interpolation_layer = 0.02f;
+}
+void from_below(HairParams& p) { p.look_light_direction = F4(0.2f, -0.3f, -0.9f, 0.0f); }
+void from_the_side(HairParams& p) { p.look_light_direction = F4(1.0f, 0.0f, 0.1f, 0.0f); }
+
+INSTANTIATE_TEST_SUITE_P(All, DrawnPasses,
+                         testing::Values(Case{"usual", 16, 16, 64, 248, 1000, true, true, nullptr},
+                                         Case{"wavy", 16, 16, 20, 17, 500, true, true, waves},
+                                         Case{"wavy_8_wide", 8, 16, 20, 17, 500, true, true, waves},
+                                         Case{"one_wide", 1, 5, 20, 20, 200, true, true, from_below},
+                                         Case{"free_and_unshaded", 16, 33, 8, 17, 101, false, false, nullptr},
+                                         Case{"of_33", 8, 33, 64, 40, 300, true, true, from_the_side},
+                                         Case{"of_3", 16, 3, 8, 1, 17, true, true, waves},
+                                         Case{"of_5_unshaded", 16, 5, 20, 30, 200, false, true, nullptr}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
+} // namespace coif
