@@ -71,7 +71,7 @@ class Renderer
 
     void upload(const FrameInput& frame);
     void upload_mesh(const FrameInput& frame);
-    void upload_order(const FrameInput& frame, glm::vec3 forward);
+    void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
     void draw_solids(const FrameInput& frame);
     void draw_strands(const FrameInput& frame);
@@ -93,6 +93,7 @@ class Renderer
     GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
     std::vector<float> mesh_key_;
+    float enclosed_ = 0.0f; // radius of a ball inside the head, m, before head.scale
     std::vector<std::pair<float, unsigned>> order_;
     std::vector<unsigned> indices_;
 };

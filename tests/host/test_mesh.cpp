@@ -4,7 +4,9 @@
 
 #include <assimp/Exporter.hpp>
 #include <assimp/scene.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>

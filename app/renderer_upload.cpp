@@ -1,0 +1,177 @@
+// What the renderer sends to the driver before it draws: parameters, grids, the head, the strands and their order.
+#include "app/renderer.h"
+
+#include "sim/wave.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace coif
+{
+
+// The largest ball about the scalp's centre that the head wholly encloses: what lies behind it is hidden. Zero for a
+// mesh that does not close around the centre (van Oosterom, Strackee. The solid angle of a plane triangle. 1983).
+static float enclosed_radius(const std::vector<float>& vertices, const std::vector<glm::uvec3>& triangles,
+                             glm::vec3 center)
+{
+    const auto corner = [&](unsigned i)
+    { return glm::dvec3(vertices[i * 7], vertices[i * 7 + 1], vertices[i * 7 + 2]) - glm::dvec3(center); };
+    double solid_angle = 0.0;
+    float nearest = INFINITY;
+    for (const glm::uvec3& t : triangles)
+    {
+        const glm::dvec3 a = corner(t.x), b = corner(t.y), c = corner(t.z);
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        solid_angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                                        la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
+        nearest = std::min(nearest, triangle_distance(glm::vec3(0.0f), glm::vec3(a), glm::vec3(b), glm::vec3(c)));
+    }
+    return std::abs(std::abs(solid_angle) - 4.0 * std::numbers::pi) < 0.01 ? nearest : 0.0f;
+}
+
+// Is the sight from the eye to the point blocked by a ball? The points of which that is true form a convex set, so a
+// segment between two of them is hidden too.
+static bool is_hidden(glm::vec3 eye, glm::vec3 point, glm::vec3 center, float radius)
+{
+    const glm::vec3 sight = point - eye, to_center = center - eye;
+    const float t = glm::clamp(glm::dot(to_center, sight) / std::max(glm::dot(sight, sight), 1e-12f), 0.0f, 1.0f);
+    const glm::vec3 away = to_center - t * sight;
+    return glm::dot(away, away) < radius * radius;
+}
+
+// The head with the share of each vertex that lies under the roots: within 4 mm of the scalp wholly, fading out at 14.
+void Renderer::upload_mesh(const FrameInput& frame)
+{
+    const Assets& assets = frame.simulation->assets();
+    const HairParams& p = frame.params;
+    const std::vector<float> key = {p.head_mesh_scale,
+                                    p.head_offset.x,
+                                    p.head_offset.y,
+                                    p.head_offset.z,
+                                    float(assets.head.positions.size()),
+                                    float(assets.scalp.positions.size())};
+    if (mesh_of_ == assets.head.positions.data() && mesh_key_ == key)
+        return;
+    mesh_of_ = assets.head.positions.data();
+    mesh_key_ = key;
+    const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
+    const Scalp& scalp = assets.scalp;
+    const float near = 0.02f * scalp.extent, far = 0.07f * scalp.extent;
+    std::vector<glm::vec4> balls; // about each triangle, to skip those out of reach
+    for (const glm::uvec3& t : scalp.triangles)
+    {
+        const glm::vec3 middle = (scalp.positions[t.x] + scalp.positions[t.y] + scalp.positions[t.z]) / 3.0f;
+        float radius = 0.0f;
+        for (int k = 0; k < 3; ++k)
+            radius = std::max(radius, glm::distance(middle, scalp.positions[t[k]]));
+        balls.emplace_back(middle, radius);
+    }
+    std::vector<float> vertices;
+    vertices.reserve(assets.head.positions.size() * 7);
+    for (size_t i = 0; i < assets.head.positions.size(); ++i)
+    {
+        const glm::vec3 at = assets.head.positions[i] * p.head_mesh_scale + offset, n = assets.head.normals[i];
+        float nearest = far;
+        for (size_t t = 0; t < balls.size(); ++t)
+        {
+            if (glm::distance(at, glm::vec3(balls[t])) - balls[t].w > nearest)
+                continue;
+            const glm::uvec3 corner = scalp.triangles[t];
+            nearest = std::min(nearest, triangle_distance(at, scalp.positions[corner.x], scalp.positions[corner.y],
+                                                          scalp.positions[corner.z]));
+        }
+        const float share = 1.0f - glm::smoothstep(near, far, nearest);
+        vertices.insert(vertices.end(), {at.x, at.y, at.z, n.x, n.y, n.z, share});
+    }
+    glBindVertexArray(mesh_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(float)), vertices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(assets.head.triangles.size() * sizeof(glm::uvec3)),
+                 assets.head.triangles.data(), GL_STATIC_DRAW);
+    mesh_index_count_ = GLsizei(assets.head.triangles.size() * 3);
+    enclosed_ = enclosed_radius(vertices, assets.head.triangles, scalp.center);
+}
+
+// Strands from far to near, by their middle node, so that their soft edges blend over what lies behind them. Segments
+// that the head hides are left out.
+void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward)
+{
+    const Groom& groom = frame.simulation->solver().groom();
+    const unsigned nodes = unsigned(groom.nodes), strands = unsigned(groom.drawn.size());
+    const float4* p = frame.drawn_positions.as<float4>();
+    order_.clear();
+    for (unsigned s = 0; s < strands; ++s)
+    {
+        const float4 middle = p[s * nodes + (nodes + 1) / 2];
+        const float depth = middle.x * forward.x + middle.y * forward.y + middle.z * forward.z;
+        order_.emplace_back(std::isfinite(depth) ? -depth : 0.0f, s);
+    }
+    std::sort(order_.begin(), order_.end());
+    const Solver& solver = frame.simulation->solver();
+    const StepInfo& info = solver.info();
+    const auto turned = [&](const float4& row)
+    { return row.x * groom.center.x + row.y * groom.center.y + row.z * groom.center.z; };
+    const glm::vec3 center(turned(info.head_row0), turned(info.head_row1), turned(info.head_row2));
+    // Room for the waves and for the curve that bulges between the nodes.
+    const float radius = enclosed_ * frame.params.head_scale - frame.params.wave_normal_amplitude -
+                         frame.params.wave_binormal_amplitude - 0.005f;
+    const auto hidden = [&](unsigned s, unsigned k)
+    {
+        const float4 at = p[s * nodes + k];
+        return radius > 0.0f && is_hidden(eye, {at.x, at.y, at.z}, center, radius);
+    };
+    indices_.clear();
+    indices_.reserve(size_t(strands) * (nodes - 2) * 4);
+    for (const auto& [depth, s] : order_)
+    {
+        bool near_hidden = hidden(s, 1);
+        for (unsigned k = 1; k + 1 < nodes; ++k) // the segment under the scalp is not drawn
+        {
+            const bool far_hidden = hidden(s, k + 1);
+            if (!std::exchange(near_hidden, far_hidden) || !far_hidden)
+                for (const unsigned node : {k - 1, k, k + 1, std::min(k + 2, nodes - 1)})
+                    indices_.push_back(s * nodes + node);
+        }
+    }
+    glBindVertexArray(strand_array_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices_.size() * sizeof(unsigned)), indices_.data(),
+                 GL_STREAM_DRAW);
+    strand_index_count_ = GLsizei(indices_.size());
+}
+
+void Renderer::upload(const FrameInput& frame)
+{
+    const HairParams params = device_params(frame.params);
+    glBindBuffer(GL_UNIFORM_BUFFER, params_block_);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof params, &params);
+
+    const std::vector<float> waves = wave_table(frame.params);
+    glBindTexture(GL_TEXTURE_1D, wave_texture_);
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_RG32F, kWaveSamples, 0, GL_RG, GL_FLOAT, waves.data());
+
+    glBindTexture(GL_TEXTURE_3D, depth_texture_);
+    const int resolution = frame.optical_depth.bytes() ? params.grid_resolution : 1;
+    const float nothing = 0.0f;
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, resolution, resolution, resolution, 0, GL_RED, GL_FLOAT,
+                 resolution > 1 ? frame.optical_depth.as<float>() : &nothing);
+
+    upload_mesh(frame);
+    if (params.render_show != 1)
+    {
+        glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_positions.bytes()), frame.drawn_positions.as<float>(),
+                     GL_STREAM_DRAW);
+        glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_frames.bytes()), frame.drawn_frames.as<float>(),
+                     GL_STREAM_DRAW);
+        upload_order(frame, glm::vec3(frame.camera.position() - frame.simulation->solver().head().origin),
+                     glm::vec3(glm::normalize(frame.camera.target - frame.camera.position())));
+    }
+}
+
+} // namespace coif

@@ -1,0 +1,437 @@
+// What whole steps must hold to, on grooms made for the purpose: mechanics that have closed answers, and extremes.
+#include "sim/error.h"
+#include "tests/on_device.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+using Vec = glm::dvec3;
+constexpr float kStep = 1.0f / 60.0f;
+constexpr double kGravity = 9.81;
+
+// Parameters without what couples strands: no grid is needed then.
+HairParams uncoupled()
+{
+    HairParams params;
+    params.forces_repulsion = 0.0f;
+    params.look_self_shadow = 0.0f;
+    params.interpolation_strands = 0;
+    return params;
+}
+
+struct Rig
+{
+    HairParams params;
+    Groom groom;
+    Pose head;
+    Solver solver;
+    double time = 0.0;
+
+    Rig(const HairParams& p, const Groom& g, const Pose& at = {})
+        : params(p), groom(g), head(at), solver(test_device(), p, g, at)
+    {
+    }
+    void step(const Pose& to)
+    {
+        head = to;
+        time += kStep;
+        solver.step({{head, time, kStep}});
+    }
+    void rest(int steps)
+    {
+        for (int i = 0; i < steps; ++i)
+            step(head);
+    }
+    std::vector<Vec> values(const char* name) const
+    {
+        const size_t count = size_t(groom.blocks) * 16 * size_t(groom.nodes) * 3;
+        return from_blocks(read<float>(test_device(), solver.buffers().at(name), count), groom.guides, groom.nodes);
+    }
+    std::vector<Vec> positions() const { return values("position"); }
+    std::vector<Vec> velocities() const { return values("velocity"); }
+
+    double worst_stretch() const
+    {
+        double worst = 0.0;
+        const std::vector<Vec> x = positions();
+        for (int s = 0; s < groom.guides; ++s)
+            for (int k = 2; k < groom.nodes; ++k)
+            {
+                const size_t i = size_t(s * groom.nodes + k);
+                const double rest = double(groom.segment_length[size_t(s)]) * params.strand_spacing;
+                worst = std::max(worst, std::abs(glm::distance(x[i], x[i - 1]) / rest - 1.0));
+            }
+        return worst;
+    }
+};
+
+Pose pose(Vec origin, double angle = 0.0, Vec axis = {0, 1, 0})
+{
+    return {origin, glm::angleAxis(angle, glm::normalize(axis)), Vec(0.0)};
+}
+
+double farthest(const std::vector<Vec>& a, const std::vector<Vec>& b)
+{
+    double most = a.size() == b.size() ? 0.0 : INFINITY;
+    for (size_t i = 0; i < a.size() && i < b.size(); ++i)
+    {
+        const double d = glm::distance(a[i], b[i]);
+        most = std::max(most, std::isfinite(d) ? d : INFINITY);
+    }
+    return most;
+}
+
+TEST(Steps, RootsAreWhereTheHeadPutsThem)
+{
+    Random random(1);
+    HairParams params = uncoupled();
+    params.strand_spacing = 1.2f;
+    Rig rig(params, random_groom(random, 20, 16, 0));
+    const std::vector<Vec> root = from_blocks(rig.groom.root_position, 20, 1);
+    const std::vector<Vec> direction = from_blocks(rig.groom.root_direction, 20, 1);
+    for (int i = 1; i <= 20; ++i)
+    {
+        rig.step(pose(0.1 * i * Vec(1, 0.3, -0.5), 0.1 * i, {0.3, 1, -0.2}));
+        const std::vector<Vec> x = rig.positions();
+        for (size_t s = 0; s < 20; ++s)
+        {
+            const Vec at = rig.head.turn * root[s];
+            const double rest = double(rig.groom.segment_length[s]) * rig.params.strand_spacing;
+            // A rotation's nine products in floats.
+            EXPECT_LE(glm::distance(x[s * 16 + 1], at), 5e-8);
+            EXPECT_LE(glm::distance(x[s * 16], at - rig.head.turn * direction[s] * rest), 5e-8);
+        }
+    }
+}
+
+TEST(Steps, AFreeNodeFallsAsSymplecticEulerSays)
+{
+    HairParams params = uncoupled();
+    params.solver_stretching = params.solver_bending = params.forces_drag = 0.0f;
+    Rig rig(params, one_strand(16, 0.3f, {0, 0, 0}, {1, 0, 0}));
+    const std::vector<Vec> start = rig.positions();
+    const double h = kStep;
+    for (int n = 1; n <= 60; ++n)
+    {
+        rig.step(rig.head);
+        const std::vector<Vec> x = rig.positions();
+        const double fall = kGravity * h * h * n * (n + 1) / 2.0;
+        for (size_t k = 2; k < 16; ++k)
+            // The speed is kept as a difference of positions over h, each rounded to a part in 2^24 of up to 5 m: after
+            // n steps, n times that.
+            EXPECT_LE(glm::distance(x[k], start[k] - Vec(0, fall, 0)), n * 6e-7 + 1e-7) << "step " << n;
+    }
+}
+
+TEST(Steps, DragTakesSpeedAwayExactlyWhateverItsSize)
+{
+    for (const double b : {0.01, 3.0, 60.0, 100.0})
+    {
+        HairParams params = uncoupled();
+        params.solver_stretching = params.solver_bending = 0.0f;
+        params.forces_drag = float(b);
+        Rig rig(params, one_strand(16, 0.3f, {0, 0, 0}, {1, 0, 0}));
+        for (int n = 1; n <= 30; ++n)
+        {
+            rig.step(rig.head);
+            const double expected = -kGravity * -std::expm1(-b * n * double(kStep)) / b;
+            for (const Vec& v : {rig.velocities()[2], rig.velocities()[15]})
+                // 60 times the rounding of positions of up to 1.5 m, and drag hands an error on for n steps at most.
+                EXPECT_LE(std::abs(v.y - expected), 1e-5 * n) << "drag " << b << ", step " << n;
+        }
+    }
+}
+
+TEST(Steps, AStrandAtRestHangsStraightDownAndKeepsItsLength)
+{
+    HairParams params = uncoupled();
+    params.solver_bending = 0.0f;
+    params.solver_iterations = 40;
+    params.forces_drag = 5.0f;
+    Rig rig(params, one_strand(16, 0.3f, {0.1f, 0.2f, 0.0f}, {1, 0, 0}));
+    rig.rest(300);
+    const std::vector<Vec> x = rig.positions();
+    for (size_t k = 2; k < 16; ++k)
+    {
+        EXPECT_NEAR(x[k].x, x[1].x, 1e-3) << "node " << k;
+        EXPECT_NEAR(x[k].z, x[1].z, 1e-3) << "node " << k;
+        EXPECT_LT(x[k].y, x[k - 1].y);
+    }
+    EXPECT_LT(rig.worst_stretch(), 0.01);
+}
+
+TEST(Steps, OverRelaxedSweepsStretchLessThanPlainOnesOfTheSameNumber)
+{
+    double stretch[2];
+    for (const int sweeps : {0, 1})
+    {
+        HairParams params = uncoupled();
+        params.solver_bending = 0.0f;
+        params.solver_sweeps = sweeps;
+        Rig rig(params, one_strand(16, 0.3f, {0, 0, 0}, {0.6f, 0.8f, 0}));
+        rig.rest(120);
+        stretch[sweeps] = rig.worst_stretch();
+    }
+    EXPECT_LT(stretch[0], 0.25 * stretch[1]) << "over-relaxed " << stretch[0] << ", plain " << stretch[1];
+}
+
+// Guides 0, 2, 4 and so on mirrored in x = 0 by those after them.
+Groom mirrored_groom(int pairs, int nodes)
+{
+    Random random(5);
+    Groom groom = random_groom(random, 2 * pairs, nodes, 0);
+    groom.center = {0.0f, 0.02f, -0.01f};
+    for (int s = 0; s < 2 * pairs; s += 2)
+    {
+        groom.segment_length[size_t(s + 1)] = groom.segment_length[size_t(s)];
+        for (std::vector<float>* values : {&groom.root_position, &groom.root_direction})
+            for (int axis = 0; axis < 3; ++axis)
+                (*values)[size_t(strand_value(s + 1, 0, axis, 1))] =
+                    (*values)[size_t(strand_value(s, 0, axis, 1))] * (axis == 0 ? -1.0f : 1.0f);
+    }
+    return groom;
+}
+
+TEST(Steps, AMirroredGroomMovesMirrored)
+{
+    for (const bool coupled : {false, true})
+    {
+        HairParams params = uncoupled();
+        params.grid_resolution = 20;
+        params.forces_repulsion = coupled ? 2.0f : 0.0f;
+        params.forces_wind = F4(0.0f, 1.0f, -6.0f, 0.0f);
+        params.forces_turbulence = 0.0f;
+        Rig rig(params, mirrored_groom(10, 16));
+        rig.solver.set_colliders({{{0.0f, 0.0f, 0.0f}, 0.1f, true}, {{0.0f, -0.1f, 0.05f}, 0.08f, true}});
+        for (int i = 1; i <= (coupled ? 20 : 60); ++i)
+            rig.step(pose({0.0, 0.1 * std::sin(0.1 * i), 0.0}, 0.4 * std::sin(0.2 * i), {1, 0, 0}));
+        const std::vector<Vec> x = rig.positions();
+        double worst = 0.0;
+        for (size_t s = 0; s < 20; s += 2)
+            for (size_t k = 0; k < 16; ++k)
+                worst = std::max(worst, glm::distance(x[s * 16 + k], x[(s + 1) * 16 + k] * Vec(-1, 1, 1)));
+        // Floats round alike on both sides of zero. The grid's weights do not, and steps carry that on; where strands
+        // are squeezed between spheres, a hundredfold in a step, so that one cannot ask for long.
+        EXPECT_LE(worst, coupled ? 1e-6 : 0.0) << (coupled ? "with" : "without") << " repulsion";
+    }
+}
+
+TEST(Steps, NoGuideEntersACollider)
+{
+    Random random(2);
+    Rig rig(uncoupled(), random_groom(random, 40, 16, 0));
+    const std::vector<Collider> apart = {{{0.01f, 0.02f, -0.01f}, 0.1f, true},
+                                         {{0.25f, 0.0f, 0.0f}, 0.06f, false},
+                                         {{-0.2f, -0.1f, 0.1f}, 0.07f, true},
+                                         {{0.0f, -0.25f, 0.0f}, 0.09f, false}};
+    rig.solver.set_colliders(apart);
+    double deepest = 0.0;
+    for (int i = 1; i <= 120; ++i)
+    {
+        rig.step(pose({0.05 * std::sin(0.15 * i), 0, 0}, 0.8 * std::sin(0.1 * i)));
+        const std::vector<Vec> x = rig.positions();
+        for (const float4& c : rig.solver.placed_colliders())
+            for (size_t n = 0; n < x.size(); ++n)
+                if (n % 16 > 1)
+                    deepest = std::max(deepest, c.w - glm::distance(x[n], Vec(c.x, c.y, c.z)));
+    }
+    EXPECT_LE(deepest, 1e-7); // a push-out's rounding
+}
+
+TEST(Steps, ALeapCarriesHairRigidlyAndKeepsItsSpeedAgainstTheHead)
+{
+    struct Leap
+    {
+        const char* name;
+        Vec by;
+        double angle;
+        Vec axis;
+        float gravity;     // turns about y alone leave gravity what it is to the hair
+        bool head_on_move; // up to the leap, and not in it: a leap takes the place of the head's way in that step
+    };
+    for (const Leap& leap : {Leap{"5 m", {3, 0, -4}, 0.0, {0, 1, 0}, 1.0f, false},
+                             Leap{"5 m on the move", {3, 0, -4}, 0.0, {0, 1, 0}, 1.0f, true},
+                             Leap{"120 degrees about y", {0, 0, 0}, 2.0944, {0, 1, 0}, 1.0f, false},
+                             Leap{"120 degrees about any axis", {0, 0, 0}, 2.0944, {0.4, -0.5, 0.7}, 0.0f, false},
+                             Leap{"both", {1, 2, 3}, 2.5, {0.1, -0.5, 0.7}, 0.0f, false}})
+    {
+        HairParams params = uncoupled();
+        params.forces_gravity = leap.gravity;
+        Random random(3);
+        const Groom groom = random_groom(random, 20, 16, 0);
+        Rig stays(params, groom), leaps(params, groom);
+        for (Rig* rig : {&stays, &leaps})
+        {
+            rig->solver.set_colliders({{groom.center, 0.1f, true}});
+            for (int i = 1; i <= 20; ++i)
+                rig->step(pose({0.02 * i, 0, 0}, 0.05 * i, {0.2, 1, 0.1}));
+            if (!leap.head_on_move)
+                rig->rest(1); // the hair still swings
+        }
+        const glm::dquat turn = glm::angleAxis(leap.angle, glm::normalize(leap.axis));
+        for (int i = 0; i < 3; ++i)
+        {
+            stays.step(stays.head);
+            leaps.step(i > 0 ? leaps.head : Pose{leaps.head.origin + leap.by, turn * leaps.head.turn, Vec(0.0)});
+            std::vector<Vec> x = stays.positions(), v = stays.velocities();
+            for (std::vector<Vec>* values : {&x, &v})
+                for (Vec& value : *values)
+                    value = turn * value;
+            EXPECT_LE(farthest(leaps.positions(), x), 1e-5) << leap.name;
+            EXPECT_LE(farthest(leaps.velocities(), v), 1e-5 / kStep) << leap.name;
+        }
+        EXPECT_LE(glm::distance(leaps.solver.jumped(), leap.by), 1e-12) << leap.name;
+        EXPECT_EQ(stays.solver.jumped(), Vec(0.0));
+    }
+}
+
+TEST(Steps, ABadStrandIsTheOnlyOneThatStartsAnew)
+{
+    Random random(4);
+    const Groom groom = random_groom(random, 40, 16, 0);
+    Rig sound(uncoupled(), groom), ill(uncoupled(), groom);
+    const int bad = 21;
+    for (Rig* rig : {&sound, &ill})
+        for (int i = 1; i <= 20; ++i)
+        {
+            if (rig == &ill && i == 10)
+            {
+                std::vector<float> x = read<float>(test_device(), rig->solver.buffers().at("position"), 48 * 16 * 3);
+                x[size_t(strand_value(bad, 7, 1, 16))] = NAN;
+                write(test_device(), rig->solver.buffers().at("position"), x);
+            }
+            rig->step(pose({0.01 * i, 0, 0}, 0.05 * i));
+        }
+    const std::vector<Vec> a = sound.positions(), b = ill.positions();
+    for (int s = 0; s < 40; ++s)
+        for (int k = 0; k < 16; ++k)
+        {
+            const size_t i = size_t(s * 16 + k);
+            EXPECT_TRUE(s == bad ? std::isfinite(b[i].x + b[i].y + b[i].z) : a[i] == b[i]) << "strand " << s;
+        }
+    std::vector<int> resets(40, 0);
+    EXPECT_EQ(sound.solver.resets(), resets);
+    resets[bad] = 1;
+    EXPECT_EQ(ill.solver.resets(), resets);
+    EXPECT_LT(ill.worst_stretch(), 0.5);
+}
+
+TEST(Steps, TenKilometresFromTheOriginHairMovesTheSame)
+{
+    HairParams params = uncoupled();
+    params.forces_wind = F4(5.0f, 0.0f, 3.0f, 0.0f);
+    params.forces_turbulence = 0.0f; // gusts belong to places
+    Random random(6);
+    const Groom groom = random_groom(random, 20, 16, 0);
+    const Vec far(1e4, -1e4, 1e4);
+    Rig here(params, groom), there(params, groom, pose(far));
+    for (int i = 1; i <= 60; ++i)
+    {
+        const Vec at(0.2 * std::sin(0.1 * i), 0.1 * std::sin(0.17 * i), 0.0);
+        here.step(pose(at, 0.5 * std::sin(0.1 * i)));
+        there.step(pose(far + at, 0.5 * std::sin(0.1 * i)));
+    }
+    EXPECT_LE(farthest(here.positions(), there.positions()), 1e-5);
+}
+
+struct Extreme
+{
+    const char* name;
+    std::vector<std::pair<float HairParams::*, float>> values;
+    int iterations = 10;
+};
+
+TEST(Steps, ExtremesStayFiniteAndBounded)
+{
+    using P = HairParams;
+    const Extreme extremes[] = {
+        {"drag 100", {{&P::forces_drag, 100.0f}}},
+        {"no drag", {{&P::forces_drag, 0.0f}}},
+        {"gravity 10", {{&P::forces_gravity, 10.0f}}},
+        {"gravity -2", {{&P::forces_gravity, -2.0f}}},
+        {"no gravity, no drag", {{&P::forces_gravity, 0.0f}, {&P::forces_drag, 0.0f}}},
+        {"no stretching", {{&P::solver_stretching, 0.0f}}},
+        {"stiff", {{&P::solver_bending, 1.0f}}},
+        {"brush", {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 2.0f}}},
+        {"brush, unattenuated",
+         {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 2.0f}, {&P::solver_bending_attenuation, 0.0f}}},
+        {"shrunk", {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 0.5f}, {&P::strand_spacing, 0.2f}}},
+        {"grown", {{&P::strand_spacing, 3.0f}}},
+        {"one sweep", {}, 1},
+        {"200 sweeps", {}, 200},
+        {"limp, 1 sweep", {{&P::solver_bending, 0.0f}}, 1},
+    };
+    Random random(8);
+    const Groom groom = random_groom(random, 17, 16, 0);
+    for (const Extreme& extreme : extremes)
+    {
+        HairParams params = uncoupled();
+        params.solver_iterations = extreme.iterations;
+        for (const auto& [field, value] : extreme.values)
+            params.*field = value;
+        Rig rig(params, groom);
+        rig.solver.set_colliders({{groom.center, 0.1f, true}, {{0.1f, -0.1f, 0.0f}, 0.08f, true}});
+        for (int i = 1; i <= 60; ++i)
+            rig.step(pose({0.3 * std::sin(0.3 * i), 0, 0}, 0.8 * std::sin(0.1 * i)));
+        // Nothing flies further than a free fall of a second under ten g, or a whip's end.
+        for (const Vec& x : rig.positions())
+            ASSERT_LT(glm::length(x), extreme.values.empty() ? 1.0 : 60.0) << extreme.name; // false for NaN too
+        EXPECT_EQ(rig.solver.resets(), std::vector<int>(17, 0)) << extreme.name;
+    }
+}
+
+TEST(Steps, WindThatIsGoneAndHairOfNoLengthAreNoTrouble)
+{
+    struct
+    {
+        const char* name;
+        glm::dvec3 wind; // the motion's
+        float length;
+    } const cases[] = {{"no wind", {0, 0, 0}, 0.3f},
+                       {"storm", {100, -100, 100}, 0.3f},
+                       {"a breath", {1e-30, 0, 0}, 0.3f},
+                       {"shortest hair", {10, 0, 0}, 0.002f},
+                       {"hair of no length", {10, 0, 0}, 0.0f}};
+    for (const auto& c : cases)
+    {
+        HairParams params = uncoupled();
+        params.forces_turbulence = 4.0f;
+        Rig rig(params, one_strand(16, c.length, {0, 0.1f, 0}, {0, 1, 0}));
+        rig.solver.set_colliders({{{0, 0, 0}, 0.1f, true}});
+        for (int i = 1; i <= 60; ++i)
+        {
+            Pose at = pose({0.02 * i, 0, 0});
+            at.wind = i > 30 ? c.wind : Vec(0.0);
+            rig.step(at);
+        }
+        for (const Vec& x : rig.positions())
+            ASSERT_LT(glm::distance(x, Vec(0, 0.1, 0)), 2.0 * c.length + 0.03) << c.name;
+        EXPECT_EQ(rig.solver.resets(), std::vector<int>(1, 0)) << c.name;
+    }
+}
+
+TEST(Steps, ANodeOnACollidersCentreFindsItsWayOut)
+{
+    HairParams params = uncoupled();
+    Rig rig(params, one_strand(16, 0.28f, {0, 0, 0}, {0, -1, 0}));
+    rig.rest(10);
+    const Vec node = rig.positions()[9];
+    rig.solver.set_colliders({{glm::vec3(node), 0.03f, true}});
+    rig.rest(60);
+    for (const Vec& x : rig.positions())
+        EXPECT_GE(glm::distance(x, node), 0.03f - 1e-7);
+    EXPECT_EQ(rig.solver.resets(), std::vector<int>(1, 0));
+}
+
+} // namespace
+} // namespace coif

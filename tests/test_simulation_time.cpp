@@ -1,0 +1,212 @@
+// How a whole style lives in time: bytes that hang on nothing but the input, frames that cut time in any way, steps
+// that are none.
+#include "sim/error.h"
+#include "sim/health.h"
+#include "sim/simulation.h"
+#include "tests/on_device.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+// Coif's own scalp and the spheres of its head, with everything switched on and a small grid.
+Hairstyle small_style(const std::string& sets = {})
+{
+    Hairstyle style;
+    for (const char* set : {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "forces.wind=[3, 0, 1]",
+                            "forces.repulsion=1", "wave.normal_amplitude=0.004"})
+        assign(style, set);
+    for (size_t begin = 0; begin < sets.size();)
+    {
+        const size_t end = std::min(sets.find(';', begin), sets.size());
+        assign(style, sets.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return style;
+}
+
+using Bytes = std::map<std::string, std::vector<uint8_t>>;
+
+// What a step and a draw leave behind.
+Bytes results(const Simulation& simulation)
+{
+    Bytes bytes;
+    for (const char* name :
+         {"position", "velocity", "resets", "density", "gradient", "drawn_position", "drawn_frame", "depth"})
+        bytes[name] = bytes_of(test_device(), simulation.solver().buffers().at(name));
+    return bytes;
+}
+
+// Names of the buffers that differ.
+std::string differing(const Bytes& a, const Bytes& b)
+{
+    std::string names;
+    for (const auto& [name, bytes] : a)
+        if (bytes != b.at(name))
+            names += name + " ";
+    return names;
+}
+
+TEST(Time, EqualInputGivesEqualBytes)
+{
+    Bytes bytes[2];
+    for (Bytes& b : bytes)
+    {
+        Simulation simulation(test_device(), small_style());
+        simulation.play(find_motion("shake"));
+        for (int i = 0; i < 60; ++i)
+            simulation.step(simulation.hand());
+        simulation.solver().draw();
+        b = results(simulation);
+    }
+    EXPECT_EQ(differing(bytes[0], bytes[1]), "");
+}
+
+TEST(Time, AScriptGivesEqualBytesAtAnyFrameRate)
+{
+    for (const char* motion : {"shake", "gust", "teleport"})
+    {
+        Bytes reference;
+        for (const int fps : {60, 10, 30, 144})
+        {
+            Simulation simulation(test_device(), small_style("solver.iterations=4"));
+            simulation.play(find_motion(motion));
+            int taken = 0;
+            for (int frame = 0; frame < 2 * fps; ++frame)
+                taken += simulation.advance(1.0 / fps, simulation.hand(), 1000);
+            EXPECT_EQ(taken, 120) << motion << " at " << fps;
+            EXPECT_EQ(simulation.dropped(), 0);
+            simulation.solver().draw();
+            if (reference.empty())
+                reference = results(simulation);
+            EXPECT_EQ(differing(reference, results(simulation)), "") << motion << " at " << fps;
+        }
+    }
+}
+
+TEST(Time, AStepLongerThanASixtiethIsCut)
+{
+    // Repulsion sees the density of the last whole step, so it is left out of the comparison.
+    Simulation fast(test_device(), small_style("forces.repulsion=0"));
+    Simulation slow(test_device(), small_style("forces.repulsion=0;solver.rate=30"));
+    for (Simulation* simulation : {&fast, &slow})
+        simulation->play(find_motion("shake"));
+    EXPECT_DOUBLE_EQ(slow.step_seconds(), 1.0 / 30.0);
+    for (int i = 0; i < 30; ++i)
+    {
+        slow.step(slow.hand());
+        fast.step(fast.hand());
+        fast.step(fast.hand());
+        EXPECT_FLOAT_EQ(slow.solver().info().substep, 1.0f / 60.0f);
+    }
+    EXPECT_NEAR(slow.time(), fast.time(), 1e-12);
+    const std::vector<float> a =
+        read<float>(test_device(), fast.solver().buffers().at("position"), fast.solver().guide_positions().bytes() / 4);
+    const std::vector<float> b = read<float>(test_device(), slow.solver().buffers().at("position"), a.size());
+    for (size_t i = 0; i < a.size(); ++i)
+        ASSERT_NEAR(a[i], b[i], 1e-5); // times of substeps are sums, rounded apart by 1e-16 s
+
+    Simulation quick(test_device(), small_style("solver.rate=240"));
+    quick.step(quick.hand());
+    EXPECT_FLOAT_EQ(quick.solver().info().substep, 1.0f / 240.0f);
+}
+
+TEST(Time, AStepOfNoTimeIsNoStep)
+{
+    Simulation simulation(test_device(), small_style());
+    simulation.play(find_motion("shake"));
+    for (int i = 0; i < 20; ++i)
+        simulation.step(simulation.hand());
+    const Bytes before = results(simulation);
+    for (const float seconds : {0.0f, -0.0f, -1.0f, NAN, -INFINITY})
+    {
+        simulation.solver().step({{simulation.solver().head(), simulation.time(), seconds}});
+        EXPECT_EQ(differing(before, results(simulation)), "") << seconds << " s";
+    }
+    const long steps = simulation.steps();
+    for (const double seconds : {0.0, -1.0, double(NAN), double(-INFINITY), double(INFINITY)})
+        EXPECT_EQ(simulation.advance(seconds, simulation.hand(), 100), 0) << seconds << " s";
+    EXPECT_EQ(simulation.steps(), steps);
+    EXPECT_EQ(simulation.dropped(), 0);
+    EXPECT_EQ(differing(before, results(simulation)), "");
+    simulation.solver().step({});
+    EXPECT_EQ(differing(before, results(simulation)), "") << "no substeps";
+}
+
+TEST(Time, StepsThatCannotBeTakenAreDroppedAndCounted)
+{
+    Simulation simulation(test_device(), small_style());
+    Pose hand;
+    hand.origin = {0.01, 0.0, 0.0};
+    EXPECT_EQ(simulation.advance(0.5, hand, 4), 4);
+    EXPECT_EQ(simulation.dropped(), 26);
+    EXPECT_EQ(simulation.steps(), 4);
+    EXPECT_EQ(simulation.solver().head().origin, hand.origin) << "the hand arrives with the last step";
+    EXPECT_EQ(simulation.advance(0.4 / 60.0, hand, 4), 0);
+    EXPECT_EQ(simulation.advance(0.7 / 60.0, hand, 4), 1) << "what is over waits";
+    EXPECT_EQ(simulation.dropped(), 26);
+}
+
+TEST(Time, TheHandsWayIsSharedOutOverTheSteps)
+{
+    Simulation simulation(test_device(), small_style());
+    Pose hand;
+    hand.origin = {0.06, 0.0, 0.0};
+    hand.turn = glm::angleAxis(0.5, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(simulation.advance(3.0 / 60.0, hand, 100), 3);
+    // A third of the way in the last step.
+    EXPECT_NEAR(simulation.solver().info().origin_move.x, 0.02, 1e-8);
+    EXPECT_EQ(simulation.solver().head().origin, hand.origin);
+    EXPECT_NEAR(std::abs(glm::dot(simulation.solver().head().turn, hand.turn)), 1.0, 1e-12);
+}
+
+TEST(Time, AScriptThatEndsLeavesTheHeadWhereItIs)
+{
+    Simulation simulation(test_device(), small_style());
+    Motion motion;
+    motion.seconds = 0.2;
+    motion.ramps.push_back({Motion::X, 0.1, 0.0, 0.2});
+    simulation.play(motion);
+    for (int i = 0; i < 20; ++i)
+        simulation.step(simulation.hand());
+    EXPECT_FALSE(simulation.playing());
+    EXPECT_NEAR(simulation.solver().head().origin.x, 0.1, 1e-9);
+    EXPECT_EQ(simulation.solver().info().teleport, 0);
+}
+
+TEST(Time, GuidesOfAWholeHeadStayOutOfItInEveryMotion)
+{
+    // The head's spheres overlap, and guides leave them one after the other: what one push undoes of another is little.
+    for (const std::string& name : motion_names())
+    {
+        Simulation simulation(test_device(), small_style());
+        simulation.settle(0.5);
+        simulation.play(find_motion(name));
+        double deepest = 0.0, drawn = 0.0;
+        for (int i = 0; i < 90; ++i)
+        {
+            simulation.step(simulation.hand());
+            if (i % 6)
+                continue;
+            simulation.solver().draw();
+            const Health health = measure_health(simulation.solver(), simulation.style().params, true);
+            EXPECT_TRUE(health.finite);
+            deepest = std::max(deepest, health.penetration_max);
+            drawn = std::max(drawn, health.drawn_penetration_max);
+        }
+        printf("%s %g %g\n", name.c_str(), deepest, drawn);
+        EXPECT_LE(deepest, 1e-3) << name;
+        EXPECT_LE(drawn, 1e-4) << name;
+        EXPECT_EQ(simulation.solver().resets(), std::vector<int>(size_t(simulation.solver().groom().guides), 0));
+    }
+}
+
+} // namespace
+} // namespace coif
