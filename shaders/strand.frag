@@ -6,9 +6,8 @@
 in RibbonData {
     vec3 tangent;
     vec3 to_camera;
-    vec3 color;
-    float light;
-    vec3 across;
+    vec2 shade;
+    vec4 across;
 } ribbon;
 
 out vec4 color; // linear, premultiplied
@@ -22,11 +21,13 @@ void main()
     // Listing A.2 measures the eye's angle from the other end of the tangent: the cone of reflection has its mirror there.
     float specular = params.look_specular * pow(max(0.0, sin_tl * sin_te - tl * te), params.look_specular_exponent);
 
+    vec3 hair = mix(params.look_root_color.rgb, params.look_tip_color.rgb, ribbon.shade.x) * ribbon.shade.y;
+    float light = ribbon.across.w;
     // Hair that hides from the light hides from the surroundings too, though far less: they come in from all sides.
-    float ambient = params.look_ambient * mix(0.4, 1.0, pow(ribbon.light, 0.35));
-    vec3 lit = ribbon.light * params.look_light_color.rgb;
+    float ambient = params.look_ambient * mix(0.4, 1.0, pow(light, 0.35));
+    vec3 lit = light * params.look_light_color.rgb;
     // The highlight leaves the surface almost uncoloured.
-    vec3 sum = ribbon.color * (ambient + diffuse * lit) + mix(vec3(1.0), ribbon.color, 0.4) * specular * lit;
+    vec3 sum = hair * (ambient + diffuse * lit) + mix(vec3(1.0), hair, 0.4) * specular * lit;
 
     float coverage = clamp(ribbon.across.y - abs(ribbon.across.x), 0.0, 1.0);
     float alpha = coverage * ribbon.across.z;

@@ -23,13 +23,12 @@ in NodeData {
     int strand;
 } node[4];
 
-// 14 components and gl_Position's four, times 62 vertices: close to the 1024 that a shader may send on.
+// 12 components and gl_Position's four, times 62 vertices: 992 of the 1024 that GL 3.2 promises.
 out RibbonData {
     vec3 tangent;
     vec3 to_camera;
-    vec3 color;
-    float light;
-    vec3 across; // position across the ribbon and half its drawn width, both in pixels; opacity
+    vec2 shade;  // along the strand, and its own brightness
+    vec4 across; // position across the ribbon and half its drawn width, both in pixels; opacity; share of light
 } ribbon;
 
 const float kBendTolerance = 0.2; // pixels that a piece may stray from the curve
@@ -107,11 +106,11 @@ void main()
 
         ribbon.tangent = tangent;
         ribbon.to_camera = to_camera;
-        ribbon.color = mix(params.look_root_color.rgb, params.look_tip_color.rgb, along) * brightness;
-        ribbon.light = mix(node[1].light, node[2].light, t);
+        ribbon.shade = vec2(along, brightness);
+        float light = mix(node[1].light, node[2].light, t);
         for (float s = -1.0; s <= 1.0; s += 2.0)
         {
-            ribbon.across = vec3(s * half_drawn, half_drawn, params.look_opacity * min(width, 1.0));
+            ribbon.across = vec4(s * half_drawn, half_drawn, params.look_opacity * min(width, 1.0), light);
             gl_Position = frame.view_projection * vec4(here + side * (s * half_drawn * size), 1.0);
             EmitVertex();
         }

@@ -1,0 +1,171 @@
+// The program as a person or a script calls it: what it prints where, what it writes, and how it ends.
+#include "app/image.h"
+#include "sim/hairstyle.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace coif;
+namespace fs = std::filesystem;
+
+namespace
+{
+struct Result
+{
+    int status = -1;
+    std::string out, err;
+};
+
+class Commands : public testing::Test
+{
+  protected:
+    void SetUp() override
+    {
+        folder = fs::temp_directory_path() / ("coif_commands_" + std::to_string(getpid()));
+        fs::create_directories(folder);
+        write("small.toml", "[interpolation]\nstrands = 200\n[grid]\nresolution = 16\n");
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
+    std::string contents(const std::string& name) const
+    {
+        std::ifstream in(folder / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    // Runs coif in the folder, without a display.
+    Result coif(const std::string& arguments) const
+    {
+        const std::string command = "cd '" + folder.string() +
+                                    "' && env -u DISPLAY -u WAYLAND_DISPLAY '" COIF_BUILD_FOLDER "/coif' " + arguments +
+                                    " > out.txt 2> err.txt < /dev/null";
+        Result result;
+        const int status = std::system(command.c_str());
+        result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        result.out = contents("out.txt");
+        result.err = contents("err.txt");
+        return result;
+    }
+    static double number(const std::string& json, const std::string& key)
+    {
+        const size_t at = json.find("\"" + key + "\": ");
+        return at == json.npos ? NAN : std::atof(json.c_str() + at + key.size() + 4);
+    }
+
+    fs::path folder;
+};
+} // namespace
+
+TEST_F(Commands, two_shots_are_the_same_to_the_byte)
+{
+    const std::string shot = "shot small.toml --size 200x160 --samples 3 --motion shake --time 0.4 -o ";
+    const Result first = coif(shot + "a.png"), second = coif(shot + "b.png");
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_EQ(first.out, "") << "words go to standard error";
+    ASSERT_EQ(second.status, 0);
+    EXPECT_GT(contents("a.png").size(), 1000u);
+    EXPECT_EQ(contents("a.png"), contents("b.png"));
+    const Image image = load_png(folder / "a.png");
+    EXPECT_EQ(image.width, 200);
+    EXPECT_EQ(image.height, 160);
+}
+
+TEST_F(Commands, a_transparent_shot_has_nothing_in_its_corners)
+{
+    ASSERT_EQ(coif("shot small.toml --size 200x160 --samples 1 --time 0 --transparent -o t.png").status, 0);
+    const Image image = load_png(folder / "t.png");
+    EXPECT_EQ(image.pixels[3], 0);
+    EXPECT_EQ(image.pixels[size_t(4) * (80 * 200 + 100) + 3], 255) << "the head is in the middle";
+}
+
+TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout)
+{
+    const Result result = coif("report small.toml --motion drag --seconds 0.5 --json");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out.front(), '{');
+    EXPECT_EQ(result.out.substr(result.out.size() - 2), "}\n");
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
+    for (const char* key : {"guides", "strands", "nodes", "frames", "stretch_max", "stretch_mean", "penetration_max_mm",
+                            "drawn_penetration_max_mm", "resets", "dropped_steps", "ms_frame_median", "simulate_pbd"})
+        EXPECT_TRUE(std::isfinite(number(result.out, key))) << key << " in " << result.out;
+    EXPECT_EQ(number(result.out, "strands"), 200);
+    EXPECT_EQ(number(result.out, "frames"), 30);
+    EXPECT_EQ(number(result.out, "resets"), 0);
+    EXPECT_EQ(number(result.out, "dropped_steps"), 0);
+    EXPECT_LT(number(result.out, "drawn_penetration_max_mm"), 2.0);
+}
+
+TEST_F(Commands, report_writes_a_line_for_each_frame_as_csv)
+{
+    ASSERT_EQ(coif("report small.toml --seconds 0.2 --fps 30 --csv -o r.csv").status, 0);
+    const std::string csv = contents("r.csv");
+    EXPECT_EQ(csv.rfind("frame,time,stretch_max,", 0), 0u);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+}
+
+TEST_F(Commands, check_tells_good_from_broken_with_its_status)
+{
+    write("broken.toml", "[strand]\nlength = \"long\"\n");
+    const Result good = coif("check small.toml"), mixed = coif("check small.toml broken.toml missing.toml");
+    EXPECT_EQ(good.status, 0);
+    EXPECT_EQ(good.out, "small.toml: good\n");
+    EXPECT_EQ(mixed.status, 1);
+    EXPECT_NE(mixed.out.find("small.toml: good\n"), std::string::npos);
+    EXPECT_NE(mixed.out.find("broken.toml:2:10: strand.length must be a number, not text\n"), std::string::npos)
+        << mixed.out;
+    EXPECT_NE(mixed.out.find("'missing.toml' is neither a file nor one of coif's presets"), std::string::npos);
+}
+
+TEST_F(Commands, save_changes_what_is_asked_and_keeps_the_rest)
+{
+    write("mine.toml", "# mine\n[strand]\nlength = 0.3 # long\n");
+    ASSERT_EQ(coif("save mine.toml -o new.toml --set strand.length=0.2 --set look.root_color=#102030").status, 0);
+    EXPECT_EQ(contents("new.toml"), "# mine\n[strand]\nlength = 0.2 # long\n\n[look]\nroot_color = \"#102030\"\n");
+    EXPECT_EQ(contents("mine.toml"), "# mine\n[strand]\nlength = 0.3 # long\n");
+    const Result bad = coif("save mine.toml -o bad.toml --set strand.length=-1");
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_NE(bad.err.find("strand.length is -1, but must lie in [0.002, 1.5] m"), std::string::npos) << bad.err;
+    EXPECT_FALSE(fs::exists(folder / "bad.toml"));
+}
+
+TEST_F(Commands, keys_lists_every_parameter)
+{
+    const Result result = coif("keys");
+    EXPECT_EQ(result.status, 0);
+    for (const ParamInfo& info : param_table())
+        EXPECT_NE(result.out.find(info.path()), std::string::npos) << info.path();
+}
+
+TEST_F(Commands, without_a_display_the_editor_takes_a_picture_and_says_where)
+{
+    const Result result = coif("small.toml --set interpolation.strands=50");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find("there is no display"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find((folder / "small.png").string()), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(fs::exists(folder / "small.png"));
+}
+
+TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
+{
+    EXPECT_EQ(coif("shot").status, 2);
+    EXPECT_EQ(coif("shot small.toml -o x.png --nonsense").status, 2);
+    EXPECT_EQ(coif("check").status, 2);
+    EXPECT_EQ(coif("report small.toml --seconds soon").status, 2);
+    EXPECT_EQ(coif("--help").status, 0);
+    EXPECT_EQ(coif("shot nowhere.toml -o x.png").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o x.png --size 9000x10").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o x.png --samples 0").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o x.png --time nan").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o no/such/folder/x.png --time 0 --size 16x16").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o x.png --motion dance").status, 1);
+    EXPECT_EQ(coif("shot small.toml -o x.png --device abacus").status, 1);
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
