@@ -49,4 +49,15 @@ static inline void straighten(real* x, real* y, real* z, real rest, float scale,
     }
 }
 
+// Brings a node to at most `most` from its parent, which stays: what the sweeps leave of stretch (Mueller, Kim,
+// Chentanez. Fast simulation of inextensible hair and fur. 2012, section 3.1, where it is a strand's only constraint).
+static inline void limit_length(real* x, real* y, real* z, real parent_x, real parent_y, real parent_z, real most)
+{
+    const real dx = *x - parent_x, dy = *y - parent_y, dz = *z - parent_z;
+    const real back = fmax(excess(dx, dy, dz, most), (real)(0.0f));
+    *x -= back * dx;
+    *y -= back * dy;
+    *z -= back * dz;
+}
+
 #endif

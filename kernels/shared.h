@@ -62,6 +62,7 @@ typedef struct StepInfo
     float relax;     // over-relaxation factor of all sweeps but the last
     float bend;      // of a sweep, eq. 5.5, before attenuation
     float clearance; // that drawn strands keep from colliders, m
+    float parting;   // m that guides may part before they are no longer mixed
     float repulsion; // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
     int guides;      // simulated strands, without those that fill the last block
     int drawn_multi; // drawn strands mixed of three guides; they come first

@@ -1,51 +1,64 @@
-// A normal at each node of a drawn strand that neither twists nor flips along it, so that waves keep their side: carried
-// from segment to segment by the smallest rotation that turns one tangent into the next (parallel transport; Bergou,
-// Wardetzky, Robinson, Audoly, Grinspun. Discrete elastic rods. 2008, section 4.2.2). A geometry shader sees four nodes
-// only and could not.
+// A normal at each node of a drawn strand that neither twists nor flips along it, so that waves keep their side:
+// carried from segment to segment by the smallest rotation that turns one tangent into the next (parallel transport;
+// Bergou, Wardetzky, Robinson, Audoly, Grinspun. Discrete elastic rods. 2008, section 4.2.2). A geometry shader sees
+// four nodes only and could not.
 //
-// At the root the normal points away from the head, as far as the strand's direction lets it. One work-item a strand.
+// At the root the normal points away from the head, as far as the strand's direction lets it. Work-item: WIDTH strands.
 // w holds the strand's length from the root on, m, for the waves' phase.
-#include "shared.h"
+#include "drawn_lanes.h"
 
-static inline float3 unit_or(float3 v, float3 otherwise)
+static inline Points unit_or(Points v, Points otherwise)
 {
-    const float squared = dot(v, v);
-    return squared > 1e-20f ? v * (1.0f / sqrt(squared)) : otherwise;
+    const real squared = dot_lanes(v, v);
+    const real shorten = INVERSE_SQRT(fmax(squared, (real)(1e-20f)));
+    return select_points(otherwise, points(v.x * shorten, v.y * shorten, v.z * shorten), squared > 1e-20f);
 }
 
-kernel void transport_frames(global const float4* drawn_position, global const DrawnStrand* strands,
-                             global float4* drawn_frame, constant StepInfo* info)
+// v without its part along the unit vector `along`.
+static inline Points across(Points v, Points along)
 {
-    const int index = get_global_id(0);
-    global const float4* p = drawn_position + index * NODES;
-    global float4* frame = drawn_frame + index * NODES;
+    const real part = dot_lanes(v, along);
+    return points(v.x - along.x * part, v.y - along.y * part, v.z - along.z * part);
+}
 
-    const float3 center = (float3)(dot(info->head_row0.xyz, info->head_center.xyz),
-                                   dot(info->head_row1.xyz, info->head_center.xyz),
-                                   dot(info->head_row2.xyz, info->head_center.xyz));
-    const float3 outward = unit_or(p[1].xyz - center, (float3)(0.0f, 1.0f, 0.0f));
-    float3 tangent = unit_or(p[1].xyz - p[0].xyz, outward);
-    // Where a strand leaves along the normal, any perpendicular will do, but all strands should take the same one.
-    const float3 side = unit_or(cross((float3)(0.0f, 1.0f, 0.0f), tangent), (float3)(1.0f, 0.0f, 0.0f));
-    const float3 across = outward - tangent * dot(outward, tangent);
-    float3 normal = unit_or(dot(across, across) > 1e-4f ? across : side - tangent * dot(side, tangent), side);
+kernel void transport_frames(global const float4* drawn_position, global float4* drawn_frame, constant StepInfo* info)
+{
+    const int first = get_global_id(0) * WIDTH;
+    if (first >= info->drawn)
+        return;
+    int strand[WIDTH];
+    number_lanes(first, info->drawn, strand);
+    const real zero = (real)(0.0f), one = (real)(1.0f);
+    Points last = load_node(drawn_position, strand, 0), p = load_node(drawn_position, strand, 1);
 
-    float length_so_far = 0.0f;
-    for (int k = 0; k < NODES; ++k)
+    const float3 center =
+        (float3)(dot(info->head_row0.xyz, info->head_center.xyz), dot(info->head_row1.xyz, info->head_center.xyz),
+                 dot(info->head_row2.xyz, info->head_center.xyz));
+    const Points outward = unit_or(points(p.x - center.x, p.y - center.y, p.z - center.z), points(zero, one, zero));
+    Points tangent = unit_or(points(p.x - last.x, p.y - last.y, p.z - last.z), outward);
+    // Where a strand leaves along the normal, any perpendicular will do, but all strands should take the same one: here
+    // up x tangent.
+    const Points side = unit_or(points(tangent.z, zero, -tangent.x), points(one, zero, zero));
+    const Points lean = across(outward, tangent);
+    Points normal = unit_or(select_points(across(side, tangent), lean, dot_lanes(lean, lean) > 1e-4f), side);
+    real length_so_far = zero;
+    store_node(drawn_frame, strand, 0, normal, zero);
+
+    for (int k = 1; k < NODES; ++k)
     {
-        if (k > 0)
-        {
-            const float3 segment = p[k].xyz - p[k - 1].xyz;
-            const float3 next = unit_or(segment, tangent);
-            // Rotation of t onto t' applied to n perpendicular to t: n - (n.t') / (1 + t.t') (t + t').
-            const float turn = 1.0f + dot(tangent, next);
-            if (turn > 1e-4f)
-                normal -= (tangent + next) * (dot(normal, next) / turn);
-            normal = unit_or(normal - next * dot(normal, next), side);
-            tangent = next;
-            if (k > 1)
-                length_so_far += sqrt(dot(segment, segment));
-        }
-        frame[k] = (float4)(normal, length_so_far);
+        p = load_node(drawn_position, strand, k);
+        const Points segment = points(p.x - last.x, p.y - last.y, p.z - last.z);
+        const Points next = unit_or(segment, tangent);
+        // Rotation of t onto t' applied to n perpendicular to t: n - (n.t') / (1 + t.t') (t + t').
+        const real turn = 1.0f + dot_lanes(tangent, next);
+        const real by = select(zero, dot_lanes(normal, next) / turn, turn > 1e-4f);
+        normal = points(normal.x - by * (tangent.x + next.x), normal.y - by * (tangent.y + next.y),
+                        normal.z - by * (tangent.z + next.z));
+        normal = unit_or(across(normal, next), side);
+        tangent = next;
+        if (k > 1)
+            length_so_far += sqrt(dot_lanes(segment, segment));
+        store_node(drawn_frame, strand, k, normal, length_so_far);
+        last = p;
     }
 }

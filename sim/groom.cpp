@@ -83,7 +83,7 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
         if (weights[k] > weights[nearest])
             nearest = k;
     for (int k = 0; k < 3; ++k)
-        if (glm::dot(directions[k], directions[nearest]) < 0.7f)
+        if (glm::dot(directions[k], directions[nearest]) < 0.85f)
             weights[k] = 0.0f;
     return weights / (weights.x + weights.y + weights.z);
 }
@@ -119,10 +119,13 @@ static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, co
         const glm::vec3 w = without_opposed(weights, of);
         DrawnStrand strand = {};
         strand.root = F4(root.x, root.y, root.z, 0.0f);
-        strand.weights = F4(w.x, w.y, w.z, 0.0f);
-        strand.guide0 = int(t.x);
-        strand.guide1 = int(t.y);
-        strand.guide2 = int(t.z);
+        // The heaviest guide first: the others may lose their weight to it (kernels/interpolate_multi.cl).
+        int order[3] = {0, 1, 2};
+        std::stable_sort(order, order + 3, [&](int i0, int i1) { return w[i0] > w[i1]; });
+        strand.weights = F4(w[order[0]], w[order[1]], w[order[2]], 0.0f);
+        strand.guide0 = int(t[order[0]]);
+        strand.guide1 = int(t[order[1]]);
+        strand.guide2 = int(t[order[2]]);
         groom.drawn.push_back(strand);
     }
 }
@@ -198,6 +201,16 @@ Groom grow(const HairParams& p, const Scalp& scalp)
     groom.longest = p.strand_length;
     groom.center = scalp.center * p.head_scale;
     groom.extent = scalp.extent * p.head_scale;
+
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const glm::vec3& root : scalp.positions)
+    {
+        low = glm::min(low, root * p.head_scale);
+        high = glm::max(high, root * p.head_scale);
+    }
+    groom.middle = 0.5f * (low + high);
+    for (const glm::vec3& root : scalp.positions)
+        groom.farthest = std::max(groom.farthest, glm::length(root * p.head_scale - groom.middle));
 
     std::vector<glm::vec3> directions;
     for (int g = 0; g < groom.guides; ++g)

@@ -22,6 +22,8 @@ struct Groom
     float longest = 0.0f;   // strand, m
     float extent = 0.0f;    // of the scalp, m
     glm::vec3 center{0.0f}; // of the scalp's sphere, in the head's frame, m
+    glm::vec3 middle{0.0f}; // of the roots' bounding box, in the head's frame, m
+    float farthest = 0.0f;  // root from the middle, m
 };
 
 // Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones

@@ -174,6 +174,7 @@ static std::vector<Collider> read_colliders(const fs::path& file, const toml::no
 static toml::table parse_toml(const std::string& text, const fs::path& file)
 try
 {
+    refuse_deep_keys(text, file);
     return toml::parse(text, file.string());
 }
 catch (const toml::parse_error& e)
@@ -252,7 +253,12 @@ void assign(Hairstyle& style, const std::string& assignment)
         if (bare && (text.size() < 2 || text[0] != '"'))
             document.insert("value", text);
         else
+        {
+            refuse_deep_keys(text, "its value");
             document = toml::parse("value = " + text);
+            if (document.size() != 1)
+                throw fail("'{}' is more than one TOML value", text);
+        }
         read_value(style, *info, *document.get("value"));
     }
     catch (const toml::parse_error&)

@@ -50,6 +50,10 @@ void write_file(const std::filesystem::path& file, const std::string& bytes);
 // Reads a whole file. Throws Error for what is missing, no plain file, or larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& file, size_t limit = size_t(1) << 30);
 
+// Throws Error for TOML with keys of thousands of dots: toml++ 3.3 makes a table in a table of each, and runs out of
+// stack when it takes them down again.
+void refuse_deep_keys(const std::string& text, const std::filesystem::path& file);
+
 // Where a path written in `style` lies: beside the style, else in coif's data folder `shipped` (hairstyles/, assets/,
 // assets/motions/ are asked by the caller). Throws Error with the place of `key` and both places that were looked at.
 std::filesystem::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,

@@ -31,6 +31,14 @@ void write_file(const fs::path& file, const std::string& bytes)
     // Through a link the file that it names is replaced, not the link.
     std::error_code error;
     const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file;
+    if (const auto there = fs::status(target, error); fs::is_fifo(there) || fs::is_character_file(there))
+    {
+        // A pipe, a terminal or /dev/null takes the bytes and stays what it is.
+        std::ofstream out(target, std::ios::binary);
+        if (!(out << bytes).flush())
+            throw fail("{}: cannot be written", file.string());
+        return;
+    }
     const fs::path beside = target.string() + fmt::format(".{}.new", getpid());
     {
         std::ofstream out(beside, std::ios::binary);
@@ -51,6 +59,19 @@ void write_file(const fs::path& file, const std::string& bytes)
         fs::remove(beside, ignored);
         throw fail("{}: cannot be written: {}", file.string(), error.message());
     }
+}
+
+void refuse_deep_keys(const std::string& text, const fs::path& file)
+{
+    // Dots beyond the 64th of their lines. 256 colliders in one line hold some 1500.
+    size_t in_line = 0, surplus = 0;
+    for (const char c : text)
+    {
+        in_line = c == '\n' ? 0 : in_line + (c == '.');
+        surplus += c == '.' && in_line > 64;
+    }
+    if (surplus > 4000)
+        throw fail("{}: holds keys with more dots than coif takes", file.string());
 }
 
 fs::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
@@ -88,10 +109,13 @@ static TomlEntry collider_entry(const Collider& collider)
 static Hairstyle moved(const Hairstyle& style, const fs::path& target)
 {
     Hairstyle result = style;
+    if (style.file.empty())
+        return result;
+    // Without links: the system goes up from where a linked folder really is.
     std::error_code error;
-    const fs::path from = fs::absolute(style.file).parent_path().lexically_normal();
-    const fs::path to = fs::absolute(target).parent_path().lexically_normal();
-    if (style.file.empty() || from == to)
+    const fs::path from = fs::weakly_canonical(fs::absolute(style.file).parent_path(), error);
+    const fs::path to = fs::weakly_canonical(fs::absolute(target).parent_path(), error);
+    if (error || from == to)
         return result;
     for (const ParamInfo& info : param_table())
     {

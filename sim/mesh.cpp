@@ -9,26 +9,85 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <sstream>
+#include <fstream>
+#include <string_view>
 
 namespace coif
 {
 
 static bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// The line (from 1) of the n-th statement (from 0) of an OBJ that begins with `word`.
-static int obj_line(const std::string& text, const std::string& word, size_t n)
+// A whole word that is a number; OBJ writers may put a + before it.
+template <typename Number> static bool read_number(std::string_view word, Number& number)
 {
-    std::istringstream in(text);
-    std::string line, first;
-    for (int number = 1; std::getline(in, line); ++number)
-        if (std::istringstream(line) >> first && first == word && n-- == 0)
-            return number;
-    return 1;
+    if (word.size() > 1 && word[0] == '+')
+        word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size();
+}
+
+// The vertices and triangles of an OBJ. Stricter than tinyobjloader, which reads 0 for what is no number, passes over
+// faces of two corners and counts corners modulo 256: a scalp that lost one vertex would carry other guides.
+static void read_obj(Scalp& scalp, const std::string& text, const std::string& name)
+{
+    std::vector<int> face_lines;
+    int number = 0;
+    for (size_t begin = 0; begin < text.size();)
+    {
+        const size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+        const std::string_view line = std::string_view(text).substr(begin, end - begin);
+        begin = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+        ++number;
+        std::vector<std::string_view> words;
+        for (size_t i = 0; i < line.size() && line[i] != '#' && words.size() < 1000;)
+        {
+            const size_t stop = std::min(line.find_first_of(" \t#", i), line.size());
+            if (stop > i)
+                words.push_back(line.substr(i, stop - i));
+            i = stop + (stop < line.size() && line[stop] != '#');
+        }
+        if (words.empty())
+            continue;
+        if (words[0] == "v")
+        {
+            double v[3];
+            bool good = words.size() >= 4;
+            for (size_t k = 0; k < 3 && good; ++k)
+                good = read_number(words[k + 1], v[k]) && std::abs(v[k]) <= 1e4; // a NaN is not
+            if (!good)
+                throw fail("{}:{}: a vertex must be three finite numbers within 10 km, in metres", name, number);
+            scalp.positions.push_back({v[0], v[1], v[2]});
+        }
+        else if (words[0] == "f")
+        {
+            if (words.size() != 4)
+                throw fail("{}:{}: a scalp must be triangles, but this face has {} corners; triangulate it on export",
+                           name, number, words.size() - 1);
+            glm::uvec3 triangle;
+            for (size_t k = 0; k < 3; ++k)
+            {
+                int corner = 0; // v, v/vt, v//vn or v/vt/vn; counted from 1, or back from the last vertex
+                if (!read_number(words[k + 1].substr(0, words[k + 1].find('/')), corner))
+                    throw fail("{}:{}: a face must name three vertices by number", name, number);
+                const long index = corner < 0 ? long(scalp.positions.size()) + corner : long(corner) - 1;
+                if (index < 0)
+                    throw fail("{}:{}: this face names vertex {}, but there are {}", name, number, corner,
+                               scalp.positions.size());
+                triangle[int(k)] = unsigned(index);
+            }
+            scalp.triangles.push_back(triangle);
+            face_lines.push_back(number);
+        }
+    }
+    for (size_t face = 0; face < face_lines.size(); ++face) // a face may come before its vertices
+        for (int k = 0; k < 3; ++k)
+            if (scalp.triangles[face][k] >= scalp.positions.size())
+                throw fail("{}:{}: this face names vertex {}, but there are {}", name, face_lines[face],
+                           scalp.triangles[face][k] + 1, scalp.positions.size());
 }
 
 // Least-squares sphere: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in c and the bracket. Solved by Gauss elimination with
@@ -69,27 +128,18 @@ static void fit_sphere(Scalp& scalp)
 
 Scalp load_scalp(const std::filesystem::path& file)
 {
-    const std::string name = file.string(), text = read_file(file, 64 << 20);
-    tinyobj::ObjReaderConfig config;
-    config.triangulate = false;
-    tinyobj::ObjReader reader;
-    if (!reader.ParseFromString(text, "", config))
-        throw fail("{}:1: is no OBJ: {}", name, reader.Error());
-    const std::vector<float>& v = reader.GetAttrib().vertices;
-    if (v.size() < 9)
-        throw fail("{}:1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)", name);
-    if (v.size() > 3 * 65536)
-        throw fail("{}: {} vertices are more guides than the 65536 that coif takes", name, v.size() / 3);
-
+    const std::string name = file.string();
     Scalp scalp;
+    read_obj(scalp, read_file(file, 64 << 20), name);
+    if (scalp.positions.size() < 3)
+        throw fail("{}:1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)", name);
+    if (scalp.positions.size() > 65536)
+        throw fail("{}: {} vertices are more guides than the 65536 that coif takes", name, scalp.positions.size());
+    if (scalp.triangles.empty())
+        throw fail("{}: a scalp needs triangles (f a b c), but has none", name);
     glm::vec3 low(INFINITY), high(-INFINITY);
-    for (size_t i = 0; i + 2 < v.size(); i += 3)
+    for (const glm::vec3& p : scalp.positions)
     {
-        const glm::vec3 p(v[i], v[i + 1], v[i + 2]);
-        if (!is_finite(p) || glm::dot(p, p) > 1e8f)
-            throw fail("{}:{}: a vertex must be three finite numbers within 10 km, in metres", name,
-                       obj_line(text, "v", i / 3));
-        scalp.positions.push_back(p);
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
@@ -97,31 +147,6 @@ Scalp load_scalp(const std::filesystem::path& file)
     scalp.extent = std::max({size.x, size.y, size.z});
     if (!(scalp.extent > 1e-5f))
         throw fail("{}: all vertices of the scalp lie in one place", name);
-
-    size_t face = 0;
-    for (const tinyobj::shape_t& shape : reader.GetShapes())
-    {
-        size_t corner = 0;
-        for (const auto corners : shape.mesh.num_face_vertices)
-        {
-            if (corners != 3)
-                throw fail("{}:{}: a scalp must be triangles, but this face has {} corners; triangulate it on export",
-                           name, obj_line(text, "f", face), int(corners));
-            glm::uvec3 triangle;
-            for (int k = 0; k < 3; ++k)
-            {
-                const int index = shape.mesh.indices.at(corner++).vertex_index;
-                if (index < 0 || size_t(index) >= scalp.positions.size())
-                    throw fail("{}:{}: this face names vertex {}, but there are {}", name, obj_line(text, "f", face),
-                               index + 1, scalp.positions.size());
-                triangle[k] = unsigned(index);
-            }
-            scalp.triangles.push_back(triangle);
-            ++face;
-        }
-    }
-    if (scalp.triangles.empty())
-        throw fail("{}: a scalp needs triangles (f a b c), but has none", name);
     fit_sphere(scalp);
     scalp.normals = vertex_normals(scalp, scalp.center);
     return scalp;
@@ -161,6 +186,34 @@ static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::ma
         append(mesh, scene, *node.mChildren[c], world, depth + 1, file);
 }
 
+// assimp 5.2 reads for ever at a PLY whose header does not end.
+static void check_ply(const std::filesystem::path& file)
+{
+    std::string head(1 << 16, '\0');
+    std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
+    const size_t end = head.find("\nend_header");
+    if (head.starts_with("ply") && (end == head.npos || head.find_first_of(" \r\n", end + 1) != end + 11))
+        throw fail("{}: is no mesh that coif can read: its header has no end_header", file.string());
+}
+
+// Nor does it look whether a file's corners are there before it reads them, and it aborts at a face without any.
+static void check_corners(const aiScene& scene, const std::string& name)
+{
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+    {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+        {
+            if (mesh.mFaces[f].mNumIndices == 0)
+                throw fail("{}: a face has no corners", name);
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices)
+                    throw fail("{}: a face names vertex {}, but there are {}", name, mesh.mFaces[f].mIndices[k] + 1,
+                               mesh.mNumVertices);
+        }
+    }
+}
+
 Mesh load_mesh(const std::filesystem::path& file)
 {
     const std::string name = file.string();
@@ -176,8 +229,14 @@ Mesh load_mesh(const std::filesystem::path& file)
                                                             aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                                                             aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                             aiComponent_CAMERAS | aiComponent_MATERIALS);
-    const aiScene* scene = importer.ReadFile(name, aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices |
-                                                       aiProcess_Triangulate | aiProcess_SortByPType);
+    check_ply(file);
+    const aiScene* scene = importer.ReadFile(name, 0);
+    if (scene)
+    {
+        check_corners(*scene, name);
+        scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices |
+                                             aiProcess_Triangulate | aiProcess_SortByPType);
+    }
     if (!scene || !scene->mRootNode || scene->mNumMeshes == 0)
         throw fail("{}: is no mesh that coif can read: {}", name, importer.GetErrorString());
     Mesh mesh;

@@ -23,8 +23,8 @@ struct Scalp : Mesh
     float extent = 0.0f;    // longest side of the vertices' bounding box, m
 };
 
-// An OBJ of triangles (tinyobjloader keeps the order of the vertices). Throws Error with file and line for anything
-// else: polygons, indices out of range, coordinates that are not finite, more than 65,536 vertices, no extent.
+// An OBJ of triangles; its vertices keep their order. Throws Error with file and line for anything else: polygons,
+// indices out of range, coordinates that are not finite, more than 65,536 vertices, no extent.
 Scalp load_scalp(const std::filesystem::path& file);
 
 // Any mesh that assimp reads, with its nodes' transforms applied. Normals are computed where the file has none. Throws

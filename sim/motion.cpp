@@ -90,13 +90,24 @@ static void read_line(Motion& motion, const std::string& kind, Line line)
     else
     {
         const Motion::Channel channel = line.channel();
+        const auto check_order = [&](double begin, double end)
+        {
+            if (begin > end)
+                throw fail("{}: begin must not lie after end", line.place(line.table));
+        };
         if (kind == "oscillation")
+        {
             motion.oscillations.push_back({channel, in_units(channel, line.number("amplitude", NAN)),
                                            line.number("frequency", NAN), line.number("begin", 0.0),
                                            line.number("end", 1e6)});
+            check_order(motion.oscillations.back().begin, motion.oscillations.back().end);
+        }
         else if (kind == "ramp")
+        {
             motion.ramps.push_back({channel, in_units(channel, line.number("by", NAN)), line.number("begin", NAN),
                                     line.number("end", NAN)});
+            check_order(motion.ramps.back().begin, motion.ramps.back().end);
+        }
         else
             motion.steps.push_back({channel, in_units(channel, line.number("by", NAN)), line.number("at", NAN)});
     }
@@ -106,7 +117,9 @@ static void read_line(Motion& motion, const std::string& kind, Line line)
 Motion load_motion(const fs::path& file)
 try
 {
-    const toml::table document = toml::parse(read_file(file, 4 << 20), file.string());
+    const std::string text = read_file(file, 4 << 20);
+    refuse_deep_keys(text, file);
+    const toml::table document = toml::parse(text, file.string());
     Motion motion;
     motion.name = file.stem().string();
     for (auto&& [key, node] : document)

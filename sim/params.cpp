@@ -12,14 +12,17 @@
 namespace coif
 {
 
+// A list has no name: its "" in params.def is none.
+static constexpr const char* bare(const char* name) { return *name == '"' ? "" : name; }
+
 #define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
     {#group, #name, Kind::kind, Scope::scope, Effect::effect, offsetof(HairParams, group##_##name), lo,                \
      hi,     unit,  labels,     help},
 #define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
 #define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
 #define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
-    {#group, #name, Kind::kind, Scope::scope, Effect::effect, COIF_OFFSET_##kind(group, name), 0.0f,                   \
-     0.0f,   "",    "",         help},
+    {#group, bare(#name), Kind::kind, Scope::scope, Effect::effect, COIF_OFFSET_##kind(group, name), 0.0f,             \
+     0.0f,   "",          "",         help},
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof" // HostParams holds strings; its offsets are well defined here
@@ -129,8 +132,13 @@ void set_numbers(HairParams& params, const ParamInfo& info, const double values[
             throw fail("{} is {}, but must be a finite number", info.path(), values[i]);
         floats[i] = float(values[i]);
         if (!(floats[i] >= info.min && floats[i] <= info.max))
-            throw fail("{} is {}, but must lie in [{}, {}]{}{}", info.path(), floats[i], info.min, info.max,
+        {
+            // As a float, so that 0.1 is told as 0.1; but not where a float would round it to another number.
+            const bool rounded = info.kind == Kind::INT || !std::isfinite(floats[i]);
+            throw fail("{} is {}, but must lie in [{}, {}]{}{}", info.path(),
+                       rounded ? fmt::format("{}", values[i]) : fmt::format("{}", floats[i]), info.min, info.max,
                        *info.unit ? " " : "", info.unit);
+        }
     }
     char* field = reinterpret_cast<char*>(&params) + info.offset;
     if (info.kind == Kind::INT || info.kind == Kind::CHOICE)

@@ -144,11 +144,21 @@ Kernel& Solver::kernel(const std::string& file, const std::string& extra)
     return found->second;
 }
 
-void Solver::launch(const std::string& pass, const std::string& extra, size_t items)
+void Solver::launch(const std::string& pass, const std::string& extra, size_t items, size_t group)
 {
     if (items == 0)
         return;
-    launches_.emplace_back(pass, run(device_, kernel(pass, extra), buffers_, cl::NDRange(items)));
+    launches_.emplace_back(pass, run(device_, kernel(pass, extra), buffers_, cl::NDRange(items),
+                                     group ? cl::NDRange(group) : cl::NullRange));
+}
+
+void Solver::launch_strands(const std::string& pass, const std::string& extra, size_t strands)
+{
+    // On CPUs each work-item is a group of its own: left to itself PoCL makes one group of few work-items, on one core.
+    // On GPUs whole groups: a number of strands that has no divisors would else be cut into groups of one.
+    const size_t width = size_t(device_.width), group = width > 1 ? 1 : 64;
+    const size_t items = (strands + width - 1) / width;
+    launch(pass, extra, (items + group - 1) / group * group, group);
 }
 
 void Solver::upload(const StepInfo& info)
@@ -175,10 +185,10 @@ void Solver::simulate(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     if (info.last_substep && density)
         launch("clear_density", "", grid_voxels(params_));
-    launch("simulate_pbd",
-           fmt::format("{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
-                       density ? "-D DENSITY " : ""),
-           size_t(groom_.blocks) * LANES / size_t(device_.width));
+    launch_strands("simulate_pbd",
+                   fmt::format("{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                               density ? "-D DENSITY " : ""),
+                   size_t(groom_.blocks) * LANES);
 }
 
 void Solver::step(const std::vector<Substep>& substeps)
@@ -230,9 +240,9 @@ void Solver::draw()
                                                      cl::NDRange(side, side, colliders_.size())));
         launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
     }
-    launch("interpolate_multi", shadow, size_t(groom_.drawn_multi));
-    launch("interpolate_single", shadow, groom_.drawn.size() - size_t(groom_.drawn_multi));
-    launch("transport_frames", "", groom_.drawn.size());
+    launch_strands("interpolate_multi", shadow, size_t(groom_.drawn_multi));
+    launch_strands("interpolate_single", shadow, groom_.drawn.size() - size_t(groom_.drawn_multi));
+    launch_strands("transport_frames", "", groom_.drawn.size());
 }
 
 Mapped Solver::guide_positions() const

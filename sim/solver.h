@@ -63,7 +63,8 @@ class Solver
   private:
     const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
     Kernel& kernel(const std::string& file, const std::string& extra);
-    void launch(const std::string& pass, const std::string& extra, size_t items);
+    void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
+    void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
     void simulate(const StepInfo& info);
     void upload(const StepInfo& info);
 

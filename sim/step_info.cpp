@@ -73,9 +73,11 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     const glm::dvec3 gust = (now.head.origin - wind * (kGustDrift * now.time)) / kGustCell;
     info.gust_origin = vector4({wrapped(gust.x), wrapped(gust.y), wrapped(gust.z)}, params.forces_turbulence);
 
-    const double reach = double(groom.longest) * std::max(1.0f, params.strand_spacing);
-    const double side = 2.0 * reach + double(groom.extent), voxel = side / params.grid_resolution;
-    info.grid_corner = vector4(turn * glm::dvec3(groom.center) - 0.5 * side, voxel);
+    // The grid holds all that hair can reach, whichever way the head turns. Values sit at the voxels' centres, so the
+    // outermost half voxels hold none; a thousandth more keeps float arithmetic within.
+    const double reach = double(groom.longest) * std::max(1.0f, params.strand_spacing) + double(groom.farthest);
+    const double voxel = 1.001 * 2.0 * reach / (params.grid_resolution - 1);
+    info.grid_corner = vector4(turn * glm::dvec3(groom.middle) - 0.5 * voxel * params.grid_resolution, voxel);
     set_sweep(info, params, groom, voxel);
 
     const double b = params.forces_drag;
@@ -90,6 +92,7 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.relax =
         params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;
     info.clearance = kClearance;
+    info.parting = 0.15f * groom.extent; // beyond some spacings of the guides, still small against the head
     // Repulsion is the relative change of the density over a tenth of the scalp's extent. The density it is relative to
     // is that of all nodes spread over the scalp's cube, so neither grid nor number of guides changes the force.
     const double spread =

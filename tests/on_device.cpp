@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace coif
@@ -82,6 +83,9 @@ static void set_guides(Groom& groom, const std::vector<glm::dvec3>& roots, const
     groom.root_direction = to_blocks(directions, groom.guides, 1);
     for (int s = 0; s < groom.blocks * 16; ++s)
         groom.segment_length.push_back(segments[size_t(s < groom.guides ? s : 0)]);
+    groom.middle = groom.center;
+    for (const glm::dvec3& root : roots)
+        groom.farthest = std::max(groom.farthest, glm::distance(glm::vec3(root), groom.middle));
 }
 
 Groom random_groom(Random& random, int guides, int nodes, int drawn)

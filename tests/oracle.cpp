@@ -230,7 +230,15 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
         for (int k = 1; k <= params.solver_iterations; ++k)
             sweep(x.data(), n, rest, double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0),
                   colliders, params, info, rounding);
-        collide(x.data(), n, colliders);
+        for (int round = 0; round < 4; ++round) // for spheres that overlap
+            for (int i = 2; i < n; ++i)
+            {
+                const Vec segment = x[size_t(i)] - x[size_t(i - 1)];
+                const double most = 1.005 * rest, is = glm::length(segment);
+                if (params.solver_stretching >= 1.0f && is > most)
+                    x[size_t(i)] = x[size_t(i - 1)] + segment * (most / is);
+                collide(x.data() + i - 2, 3, colliders); // this node only
+            }
 
         bool finite = true;
         for (int i = 2; i < n; ++i)

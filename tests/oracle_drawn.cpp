@@ -135,23 +135,24 @@ double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams&
     return info.clearance + layer + std::hypot(n, b);
 }
 
-// Away from the centre of the sphere it is deepest in, until no sphere holds it.
+// Along the mean of the ways out of the spheres that hold it, weighed by squared depth, until no sphere holds it.
 static Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
 {
-    double deepest = 0.0;
-    Vec direction(0.0);
+    double weights = 0.0;
+    Vec way(0.0);
     for (const float4& sphere : colliders)
     {
         const Vec out = p - xyz(sphere);
         const double radius = sphere.w + room, distance = glm::length(out);
-        if (radius - distance > deepest)
-        {
-            deepest = radius - distance;
-            direction = distance > 1e-6 * radius ? out / distance : Vec(0, 1, 0);
-        }
+        if (distance >= radius)
+            continue;
+        const double weight = (radius - distance) * (radius - distance);
+        way += weight * (distance > 1e-6 * radius ? out / distance : Vec(0, 1, 0));
+        weights += weight;
     }
-    if (deepest == 0.0)
+    if (weights == 0.0)
         return p;
+    const Vec direction = glm::length(way) > 1e-4 * weights ? glm::normalize(way) : Vec(0, 1, 0);
     double t = 0.0;
     for (bool moved = true; moved;)
     {
@@ -193,7 +194,19 @@ std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& str
 {
     const int n = guides.nodes;
     const int of[3] = {strand.guide0, strand.guide1, strand.guide2};
-    const double weight[3] = {strand.weights.x, strand.weights.y, strand.weights.z};
+    double weight[3] = {strand.weights.x, strand.weights.y, strand.weights.z};
+    // A guide that parts from the heaviest one, which comes first, loses its weight to it.
+    const auto apart = [&](int g, int k)
+    { return glm::distance(guides.position[size_t(of[g] * n + k)], guides.position[size_t(of[0] * n + k)]); };
+    for (int g = 1; g < 3; ++g)
+    {
+        const double parted = std::max(apart(g, (n + 1) / 2), apart(g, n - 1)) - apart(g, 1);
+        const double t = std::clamp(parted / double(info.parting) - 1.0, 0.0, 1.0);
+        weight[g] *= 1.0 - t * t * (3.0 - 2.0 * t);
+    }
+    const double sum = weight[0] + weight[1] + weight[2];
+    for (double& w : weight)
+        w /= sum;
     std::vector<Vec> node(size_t(n), to_world(info, xyz(strand.root)));
     for (int k = 0; k < n; ++k)
         for (int g = 0; g < 3; ++g)

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace coif
 {
@@ -181,9 +182,29 @@ TEST(Time, AScriptThatEndsLeavesTheHeadWhereItIs)
     EXPECT_EQ(simulation.solver().info().teleport, 0);
 }
 
+TEST(Time, ASimulationMayGoWhileItsStepsAreStillQueued)
+{
+    // As when the editor opens another style. What the queue has yet to read must outlive it. In a process of its own,
+    // for where it does not the program crashes.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto drop = []
+    {
+        for (int i = 0; i < 10; ++i)
+        {
+            Simulation simulation(test_device(), small_style());
+            for (int k = 0; k < 30; ++k)
+                simulation.step(simulation.hand());
+        }
+        test_device().queue.finish();
+        std::exit(0);
+    };
+    EXPECT_EXIT(drop(), testing::ExitedWithCode(0), "");
+}
+
 TEST(Time, GuidesOfAWholeHeadStayOutOfItInEveryMotion)
 {
-    // The head's spheres overlap, and guides leave them one after the other: what one push undoes of another is little.
+    // The head's spheres overlap, and guides leave them one after the other, in four rounds: where strands are dragged
+    // over a crease between two, a push still undoes a little of another.
     for (const std::string& name : motion_names())
     {
         Simulation simulation(test_device(), small_style());
@@ -201,8 +222,7 @@ TEST(Time, GuidesOfAWholeHeadStayOutOfItInEveryMotion)
             deepest = std::max(deepest, health.penetration_max);
             drawn = std::max(drawn, health.drawn_penetration_max);
         }
-        printf("%s %g %g\n", name.c_str(), deepest, drawn);
-        EXPECT_LE(deepest, 1e-3) << name;
+        EXPECT_LE(deepest, 2e-4) << name;
         EXPECT_LE(drawn, 1e-4) << name;
         EXPECT_EQ(simulation.solver().resets(), std::vector<int>(size_t(simulation.solver().groom().guides), 0));
     }

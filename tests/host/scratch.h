@@ -12,6 +12,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 
 namespace coif
 {
@@ -75,6 +76,13 @@ template <typename F> std::string error_of(F&& f)
     }
     return "no error";
 }
+
+// Ends the program with SIGALRM if what may hang does.
+struct TimeLimit
+{
+    explicit TimeLimit(unsigned seconds) { alarm(seconds); }
+    ~TimeLimit() { alarm(0); }
+};
 
 inline fs::path shipped(const char* name) { return fs::path(COIF_SOURCE_FOLDER) / "assets" / name; }
 

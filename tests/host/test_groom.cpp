@@ -114,7 +114,9 @@ TEST(Groom, mixed_strands_are_spread_over_the_triangles_by_area)
         const glm::vec3 n = glm::cross(b - a, c - a);
         for (const DrawnStrand& strand : groom.drawn)
         {
-            if (glm::uvec3(strand.guide0, strand.guide1, strand.guide2) != corners)
+            unsigned guides[3] = {unsigned(strand.guide0), unsigned(strand.guide1), unsigned(strand.guide2)};
+            std::sort(guides, guides + 3);
+            if (glm::uvec3(guides[0], guides[1], guides[2]) != corners)
                 continue;
             ++inside;
             const glm::vec3 p = vec(strand.root);
@@ -143,7 +145,9 @@ TEST(Groom, mixed_strands_stand_on_their_triangle_with_weights_that_sum_to_one)
         for (int i = 0; i < groom.drawn_multi; ++i)
         {
             const DrawnStrand& s = groom.drawn[size_t(i)];
-            ASSERT_GE(std::min({s.weights.x, s.weights.y, s.weights.z}), 0.0f);
+            ASSERT_GE(s.weights.z, 0.0f);
+            ASSERT_GE(s.weights.y, s.weights.z); // the heaviest first: interpolate_multi counts on it
+            ASSERT_GE(s.weights.x, s.weights.y);
             ASSERT_NEAR(s.weights.x + s.weights.y + s.weights.z, 1.0f, 1e-6f);
             const glm::vec3 a = scalp.positions.at(size_t(s.guide0)), b = scalp.positions.at(size_t(s.guide1)),
                             c = scalp.positions.at(size_t(s.guide2));
@@ -327,6 +331,21 @@ TEST(Groom, the_heads_scale_moves_the_roots_and_leaves_the_strands_as_long)
         EXPECT_LT(glm::length(of_lane(large.root_position, g) - 2.5f * of_lane(one.root_position, g)), 1e-6f);
     for (size_t i = 0; i < one.drawn.size(); ++i)
         EXPECT_LT(glm::length(vec(large.drawn[i].root) - 2.5f * vec(one.drawn[i].root)), 1e-6f);
+}
+
+TEST(Groom, all_roots_lie_within_the_farthest_of_the_middle)
+{
+    for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
+    {
+        HairParams params;
+        params.head_scale = 1.5f;
+        const Groom groom = grow(params, load_scalp(shipped(name)));
+        float farthest = 0.0f;
+        for (int g = 0; g < groom.guides; ++g)
+            farthest = std::max(farthest, glm::length(of_lane(groom.root_position, g) - groom.middle));
+        EXPECT_FLOAT_EQ(farthest, groom.farthest) << name;
+        EXPECT_LE(groom.farthest, 0.87f * groom.extent) << name; // half the diagonal of a cube
+    }
 }
 
 TEST(Groom, segments_share_the_length_whatever_the_number_of_nodes)

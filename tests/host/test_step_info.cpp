@@ -141,14 +141,14 @@ TEST(StepInfo, a_teleport_turns_the_old_pose_into_the_new_and_moves_nothing_besi
     }
     EXPECT_EQ(info.origin_move, F4(0, 0, 0, 0));
 
-    now.head.origin = {1.125, 2, 2.75};
+    now.head.origin = {1.125, 2, 2.875};
     now.head.turn = before.turn;
     info = info_of({}, before, now);
     ASSERT_FALSE(info.teleport);
     EXPECT_EQ(info.turn_row0, F4(1, 0, 0, 0));
     EXPECT_EQ(info.turn_row1, F4(0, 1, 0, 0));
     EXPECT_EQ(info.turn_row2, F4(0, 0, 1, 0));
-    EXPECT_EQ(info.origin_move, F4(0.125f, 0, -0.25f, 0));
+    EXPECT_EQ(info.origin_move, F4(0.125f, 0, -0.125f, 0));
 }
 
 TEST(StepInfo, a_kilometre_away_the_heads_move_keeps_its_precision)

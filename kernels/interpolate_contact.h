@@ -1,0 +1,79 @@
+// Drawn strands stay outside of the colliders: guides do, but a mix of them or a turned copy need not.
+#ifndef COIF_INTERPOLATE_CONTACT_H
+#define COIF_INTERPOLATE_CONTACT_H
+#include "contact.h"
+#include "drawn_lanes.h"
+
+// Where the ray p + t direction, now at t, is inside the sphere: the t at which it leaves it. Elsewhere t.
+static inline real leave_sphere(float4 sphere, Points p, Points direction, real room, real t)
+{
+    const Points out = points(p.x - sphere.x, p.y - sphere.y, p.z - sphere.z);
+    const real radius = sphere.w + room, b = dot_lanes(out, direction);
+    const real discriminant = b * b - dot_lanes(out, out) + radius * radius;
+    const real half_chord = sqrt(fmax(discriminant, (real)(0.0f)));
+    return select(t, half_chord - b, (discriminant > 0.0f) & (-b - half_chord <= t) & (half_chord - b > t));
+}
+
+// Out of the union of all spheres with `room` to spare: along the mean of the ways out of the spheres that hold the
+// point, each weighed by the square of its depth, as far as it takes to leave every sphere. So the way out turns
+// smoothly from node to node where spheres overlap; pushing out of one sphere at a time would go to and fro there, and
+// the deepest one alone would put neighbours on different sides of a crease. `which` numbers the spheres that matter.
+// Returns how far each point has moved.
+static inline real out_of(constant float4* spheres, const short* which, int count, Points* p, real room)
+{
+    real t = (real)(0.0f);
+    Points way = points(t, t, t);
+    real weights = t;
+    short touched[MOST_COLLIDERS]; // by any lane
+    int touched_count = 0;
+    for (int c = 0; c < count; ++c)
+    {
+        const float4 sphere = spheres[which[c]];
+        const Points out = points(p->x - sphere.x, p->y - sphere.y, p->z - sphere.z);
+        const real radius = sphere.w + room, squared = dot_lanes(out, out);
+        if (!any_lane(squared < radius * radius))
+            continue;
+        touched[touched_count++] = which[c];
+        const real length_out = sqrt(squared), depth = fmax(radius - length_out, (real)(0.0f));
+        const whole at_center = length_out <= 1e-6f * radius;
+        const real weight = depth * depth / select(length_out, (real)(1.0f), at_center);
+        way = points(way.x + weight * out.x, way.y + select(weight * out.y, depth * depth, at_center),
+                     way.z + weight * out.z);
+        weights += depth * depth;
+    }
+    if (touched_count == 0)
+        return t;
+    // Where the ways out cancel, upwards.
+    const real length_way = sqrt(dot_lanes(way, way));
+    const whole inside = weights > 0.0f, lost = length_way <= 1e-4f * weights;
+    const real shorten = 1.0f / select(length_way, (real)(1.0f), lost);
+    const Points direction = select_points(points(way.x * shorten, way.y * shorten, way.z * shorten),
+                                           points((real)(0.0f), (real)(1.0f), (real)(0.0f)), lost);
+
+    // What the points are in now, and then what those that left have come into.
+    Points at = *p;
+    for (int round = 0; round < 16; ++round)
+    {
+        real further = t;
+        for (int c = 0; c < touched_count; ++c)
+            further = fmax(further, leave_sphere(spheres[touched[c]], *p, direction, room, t));
+        further = select(t, further, inside);
+        if (!any_lane(further > t))
+            break;
+        t = further;
+        at = points(p->x + t * direction.x, p->y + t * direction.y, p->z + t * direction.z);
+        touched_count = 0;
+        for (int c = 0; c < count; ++c)
+        {
+            const float4 sphere = spheres[which[c]];
+            const Points out = points(at.x - sphere.x, at.y - sphere.y, at.z - sphere.z);
+            const real radius = sphere.w + room;
+            if (any_lane((dot_lanes(out, out) < radius * radius) & inside))
+                touched[touched_count++] = which[c];
+        }
+    }
+    *p = at;
+    return t;
+}
+
+#endif
