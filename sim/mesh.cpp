@@ -9,12 +9,14 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 namespace coif
 {
@@ -30,11 +32,15 @@ template <typename Number> static bool read_number(std::string_view word, Number
     return error == std::errc() && end == word.data() + word.size();
 }
 
-// The vertices and triangles of an OBJ. Stricter than tinyobjloader, which reads 0 for what is no number, passes over
-// faces of two corners and counts corners modulo 256: a scalp that lost one vertex would carry other guides.
-static void read_obj(Scalp& scalp, const std::string& text, const std::string& name)
+// The vertices and triangles of an OBJ as tinyobjloader is to read them, one statement a line, without what else an OBJ
+// may hold. Strict, because tinyobjloader is not: it reads 0 for what is no number, passes over faces of two corners,
+// counts corners modulo 256, takes indices out of range and stumbles over a comment behind a statement, and a scalp
+// that lost one vertex would carry other guides.
+static std::string checked_obj(const std::string& text, const std::string& name)
 {
-    std::vector<int> face_lines;
+    std::string clean;
+    std::vector<std::pair<int, long>> named; // line and greatest vertex of each face, from 1
+    long vertices = 0;
     int number = 0;
     for (size_t begin = 0; begin < text.size();)
     {
@@ -60,34 +66,38 @@ static void read_obj(Scalp& scalp, const std::string& text, const std::string& n
                 good = read_number(words[k + 1], v[k]) && std::abs(v[k]) <= 1e4; // a NaN is not
             if (!good)
                 throw fail("{}:{}: a vertex must be three finite numbers within 10 km, in metres", name, number);
-            scalp.positions.push_back({v[0], v[1], v[2]});
+            clean += fmt::format("v {} {} {}\n", v[0], v[1], v[2]);
+            ++vertices;
         }
         else if (words[0] == "f")
         {
             if (words.size() != 4)
                 throw fail("{}:{}: a scalp must be triangles, but this face has {} corners; triangulate it on export",
                            name, number, words.size() - 1);
-            glm::uvec3 triangle;
+            long corners[3];
             for (size_t k = 0; k < 3; ++k)
             {
                 int corner = 0; // v, v/vt, v//vn or v/vt/vn; counted from 1, or back from the last vertex
                 if (!read_number(words[k + 1].substr(0, words[k + 1].find('/')), corner))
                     throw fail("{}:{}: a face must name three vertices by number", name, number);
-                const long index = corner < 0 ? long(scalp.positions.size()) + corner : long(corner) - 1;
-                if (index < 0)
-                    throw fail("{}:{}: this face names vertex {}, but there are {}", name, number, corner,
-                               scalp.positions.size());
-                triangle[int(k)] = unsigned(index);
+                corners[k] = corner < 0 ? vertices + 1 + corner : corner;
+                if (corners[k] < 1)
+                    throw fail("{}:{}: this face names vertex {}, but there are {}", name, number, corner, vertices);
             }
-            scalp.triangles.push_back(triangle);
-            face_lines.push_back(number);
+            clean += fmt::format("f {} {} {}\n", corners[0], corners[1], corners[2]);
+            named.emplace_back(number, std::max({corners[0], corners[1], corners[2]}));
         }
     }
-    for (size_t face = 0; face < face_lines.size(); ++face) // a face may come before its vertices
-        for (int k = 0; k < 3; ++k)
-            if (scalp.triangles[face][k] >= scalp.positions.size())
-                throw fail("{}:{}: this face names vertex {}, but there are {}", name, face_lines[face],
-                           scalp.triangles[face][k] + 1, scalp.positions.size());
+    for (const auto& [line, greatest] : named) // at the end: a face may come before its vertices
+        if (greatest > vertices)
+            throw fail("{}:{}: this face names vertex {}, but there are {}", name, line, greatest, vertices);
+    if (vertices < 3)
+        throw fail("{}:1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)", name);
+    if (vertices > 65536)
+        throw fail("{}: {} vertices are more guides than the 65536 that coif takes", name, vertices);
+    if (named.empty())
+        throw fail("{}: a scalp needs triangles (f a b c), but has none", name);
+    return clean;
 }
 
 // Least-squares sphere: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in c and the bracket. Solved by Gauss elimination with
@@ -129,14 +139,19 @@ static void fit_sphere(Scalp& scalp)
 Scalp load_scalp(const std::filesystem::path& file)
 {
     const std::string name = file.string();
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = false;
+    tinyobj::ObjReader reader;
+    if (!reader.ParseFromString(checked_obj(read_file(file, 64 << 20), name), "", config))
+        throw fail("{}: is no OBJ: {}", name, reader.Error());
     Scalp scalp;
-    read_obj(scalp, read_file(file, 64 << 20), name);
-    if (scalp.positions.size() < 3)
-        throw fail("{}:1: a scalp needs at least three vertices (v x y z) and a triangle (f a b c)", name);
-    if (scalp.positions.size() > 65536)
-        throw fail("{}: {} vertices are more guides than the 65536 that coif takes", name, scalp.positions.size());
-    if (scalp.triangles.empty())
-        throw fail("{}: a scalp needs triangles (f a b c), but has none", name);
+    const std::vector<float>& v = reader.GetAttrib().vertices;
+    for (size_t i = 0; i + 2 < v.size(); i += 3)
+        scalp.positions.push_back({v[i], v[i + 1], v[i + 2]});
+    for (const tinyobj::shape_t& shape : reader.GetShapes())
+        for (size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3)
+            scalp.triangles.push_back({shape.mesh.indices[i].vertex_index, shape.mesh.indices[i + 1].vertex_index,
+                                       shape.mesh.indices[i + 2].vertex_index});
     glm::vec3 low(INFINITY), high(-INFINITY);
     for (const glm::vec3& p : scalp.positions)
     {

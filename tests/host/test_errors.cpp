@@ -186,6 +186,18 @@ TEST(BrokenStyle, keys_of_a_million_dots_are_told_and_crash_nothing)
     EXPECT_NE(error_of([&] { assign(style, "strand.length={" + repeated("a.", deep) + "a = 1}"); }), "no error");
 }
 
+TEST(BrokenStyle, the_deepest_keys_that_are_let_through_crash_nothing)
+{
+    // As many dots as refuse_deep_keys() bears, in as many values in values as toml++ bears.
+    const std::string level = "[\n{" + repeated("a.", 63) + "a = ";
+    for (const char* end : {"1", "!"})
+        EXPECT_NE(told(repeated("a.", 4000) + "a = " + repeated(level, 120) + end + repeated("}\n]", 120)), "no error");
+    std::string colliders = "collider = [";
+    for (int i = 0; i < 256; ++i)
+        colliders += "{center = [0.25, -0.125, 1.5], radius = 0.001, on = 'head'}, ";
+    EXPECT_EQ(parse_hairstyle(colliders + "]\n", "bob.toml").host.colliders.size(), 256u);
+}
+
 TEST(BrokenStyle, too_many_colliders_are_told)
 {
     const std::string one = "[[collider]]\ncenter = [0, 0, 0]\nradius = 1\n";
