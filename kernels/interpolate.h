@@ -3,8 +3,8 @@
 // from then on everything is done for all of them at once.
 #ifndef COIF_INTERPOLATE_H
 #define COIF_INTERPOLATE_H
+#include "contact_union.h"
 #include "drawn_lanes.h"
-#include "interpolate_contact.h"
 #include "interpolate_light.h"
 
 #define CURVE_FUNCTION static inline

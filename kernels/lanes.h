@@ -15,7 +15,6 @@ typedef uint16 bits;
 #define TO_WHOLE(v) convert_int16(v)
 #define TO_REAL(v) convert_float16(v)
 #define AS_BITS(v) as_uint16(v)
-#define ANY(v) any(v)
 #elif WIDTH == 8
 typedef float8 real;
 typedef int8 whole;
@@ -25,7 +24,6 @@ typedef uint8 bits;
 #define TO_WHOLE(v) convert_int8(v)
 #define TO_REAL(v) convert_float8(v)
 #define AS_BITS(v) as_uint8(v)
-#define ANY(v) any(v)
 #else
 typedef float real;
 typedef int whole;
@@ -35,7 +33,6 @@ typedef uint bits;
 #define TO_WHOLE(v) convert_int(v)
 #define TO_REAL(v) convert_float(v)
 #define AS_BITS(v) as_uint(v)
-#define ANY(v) (v)
 #endif
 
 // On CPUs 1 / sqrt(x) is faster than rsqrt(x) and rounds the same everywhere.

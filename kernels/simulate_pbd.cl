@@ -6,12 +6,11 @@
 //
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION and DENSITY are build options.
 #include "contact.h"
-#include "grid.h"
+#include "forces.h"
 #include "lanes.h"
 #include "pbd.h"
-#include "turbulence.h"
 
-#define COLLISION_ROUNDS 4
+#define CLOSING_TURNS 8
 #define MOST_STRETCH 1.005f // of a segment whose stretching is 1
 
 static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
@@ -20,47 +19,6 @@ static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
     *x = info->turn_row0.x * a + info->turn_row0.y * b + info->turn_row0.z * c;
     *y = info->turn_row1.x * a + info->turn_row1.y * b + info->turn_row1.z * c;
     *z = info->turn_row2.x * a + info->turn_row2.y * b + info->turn_row2.z * c;
-}
-
-// Wind across the strand, eq. 5.2 (Oshita 2004): |w x t| / |w| w, t the strand's unit tangent.
-static inline void add_wind(real* ax, real* ay, real* az, real x, real y, real z, real tx, real ty, real tz,
-                            constant StepInfo* info)
-{
-    const real gx = x * (1.0f / 0.15f) + info->gust_origin.x;
-    const real gy = y * (1.0f / 0.15f) + info->gust_origin.y;
-    const real gz = z * (1.0f / 0.15f) + info->gust_origin.z;
-    const float gust_size = info->wind.w * info->gust_origin.w;
-    const real wx = info->wind.x + gust_size * gust(gx, gy, gz, 0);
-    const real wy = info->wind.y + gust_size * gust(gx, gy, gz, 1);
-    const real wz = info->wind.z + gust_size * gust(gx, gy, gz, 2);
-    const real cx = wy * tz - wz * ty, cy = wz * tx - wx * tz, cz = wx * ty - wy * tx;
-    const real across = cx * cx + cy * cy + cz * cz;
-    const real all = fmax((wx * wx + wy * wy + wz * wz) * (tx * tx + ty * ty + tz * tz), (real)(1e-24f));
-    const real share = sqrt(across / all); // sine of the angle between wind and strand
-    *ax += share * wx;
-    *ay += share * wy;
-    *az += share * wz;
-}
-
-static inline void add_repulsion(real* ax, real* ay, real* az, real x, real y, real z, global const float* gradient,
-                                 constant StepInfo* info)
-{
-    float px[WIDTH], py[WIDTH], pz[WIDTH], fx[WIDTH], fy[WIDTH], fz[WIDTH];
-    LANES_STORE(x, px);
-    LANES_STORE(y, py);
-    LANES_STORE(z, pz);
-    for (int lane = 0; lane < WIDTH; ++lane)
-    {
-        float3 push = -info->repulsion * fetch_gradient(gradient, px[lane], py[lane], pz[lane], info);
-        // A few strands in one voxel of a fine grid must not explode: at most 50 m/s^2.
-        push *= fmin(1.0f, 50.0f / fmax(length(push), 1e-6f));
-        fx[lane] = push.x;
-        fy[lane] = push.y;
-        fz[lane] = push.z;
-    }
-    *ax += LANES_LOAD(fx);
-    *ay += LANES_LOAD(fy);
-    *az += LANES_LOAD(fz);
 }
 
 kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
@@ -143,8 +101,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
     for (int sweep = 0; sweep < params->solver_iterations; ++sweep)
     {
-        // Over-relaxed but for the last sweep, which leaves no overshoot (accuracy of successive over-relaxation on a
-        // chain: Young 1950; the factor is make_step_info's).
+        // Over-relaxed but for the last sweep, which leaves no overshoot (Young 1950; make_step_info has the factor).
         const float strength = sweep + 1 < params->solver_iterations ? info->stretch * info->relax : info->stretch;
         for (int c = 0; c < near_count; ++c)
             for (int i = 2; i < NODES; ++i)
@@ -154,14 +111,16 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         if (info->bend > 0.0f)
             straighten(x, y, z, rest, params->solver_bending_scale, bend);
     }
-    // The last word, from root to tip: hair that shall not stretch is taken back to its length, and hair leaves the
-    // colliders. Where spheres overlap, as a head's do, leaving one may lead into another; four rounds leave less than a
-    // tenth of a millimetre of it. Always four: one strand's need must not change its neighbours' bits.
+
+    // The last word, in one walk from root to tip: hair that shall not stretch is taken back to its length, and hair
+    // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two spheres
+    // that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by then. Always as many turns: one strand's need must not change its
+    // neighbours' bits.
     const bool inextensible = params->solver_stretching >= 1.0f;
-    for (int round = 0; round < COLLISION_ROUNDS; ++round)
-        for (int i = 2; i < NODES; ++i)
+    for (int i = 2; i < NODES; ++i)
+        for (int turns = 0; turns < CLOSING_TURNS; ++turns)
         {
-            if (inextensible)
+            if (inextensible && turns < CLOSING_TURNS / 2)
                 limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], rest * MOST_STRETCH);
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);

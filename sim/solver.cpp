@@ -33,6 +33,18 @@ Solver::Solver(const Device& device, const HairParams& params, const Groom& groo
     set_params(params);
 }
 
+Solver::~Solver()
+{
+    try
+    {
+        device_.queue.finish();
+    }
+    catch (const cl::Error&)
+    {
+        // A device that is lost reads no more.
+    }
+}
+
 void Solver::set_params(const HairParams& params)
 {
     const int resolution = buffers_.contains("density") ? params_.grid_resolution : 0;
@@ -191,13 +203,17 @@ void Solver::simulate(const StepInfo& info)
                    size_t(groom_.blocks) * LANES);
 }
 
-void Solver::step(const std::vector<Substep>& substeps)
+void Solver::step(const std::vector<Substep>& wanted)
 {
+    std::vector<Substep> substeps;
+    for (const Substep& substep : wanted)
+        if (substep.seconds > 0.0f) // zero, negative or not a number: no step
+            substeps.push_back(substep);
+    if (substeps.empty())
+        return;
     for (size_t i = 0; i < substeps.size(); ++i)
     {
         const Substep& now = substeps[i];
-        if (!(now.seconds > 0.0f))
-            continue; // zero, negative or not a number: no step
         const StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
                                              i + 1 == substeps.size());
         if (info.teleport)

@@ -34,6 +34,9 @@ class Solver
     void set_params(const HairParams& params);
     // Takes new roots and weights. Strands keep their motion if guides and nodes are as many as before.
     void set_groom(const Groom& groom);
+    Solver(const Solver&) = delete;
+    ~Solver(); // waits: the queue may still read what it was sent
+
     // In the head's frame those on_head, in the world the others.
     void set_colliders(const std::vector<Collider>& colliders);
 

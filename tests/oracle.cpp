@@ -230,12 +230,12 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
         for (int k = 1; k <= params.solver_iterations; ++k)
             sweep(x.data(), n, rest, double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0),
                   colliders, params, info, rounding);
-        for (int round = 0; round < 4; ++round) // for spheres that overlap
-            for (int i = 2; i < n; ++i)
+        for (int i = 2; i < n; ++i) // the closing walk
+            for (int turns = 0; turns < 8; ++turns)
             {
                 const Vec segment = x[size_t(i)] - x[size_t(i - 1)];
                 const double most = 1.005 * rest, is = glm::length(segment);
-                if (params.solver_stretching >= 1.0f && is > most)
+                if (params.solver_stretching >= 1.0f && turns < 4 && is > most)
                     x[size_t(i)] = x[size_t(i - 1)] + segment * (most / is);
                 collide(x.data() + i - 2, 3, colliders); // this node only
             }

@@ -136,7 +136,7 @@ double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams&
 }
 
 // Along the mean of the ways out of the spheres that hold it, weighed by squared depth, until no sphere holds it.
-static Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
+Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
 {
     double weights = 0.0;
     Vec way(0.0);

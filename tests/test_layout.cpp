@@ -36,9 +36,12 @@ struct Field
     X(head_center)                                                                                                     \
     X(wind)                                                                                                            \
     X(gust_origin)                                                                                                     \
-    X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity) X(stretch) X(relax) X(bend) X(clearance)   \
-        X(repulsion) X(guides) X(drawn_multi) X(drawn) X(colliders) X(teleport) X(last_substep) X(body_density)        \
-            X(sweep_axis) X(sweep_from) X(sweep_sign)
+    X(grid_corner)                                                                                                     \
+    X(sweep)                                                                                                           \
+    X(substep)                                                                                                         \
+    X(drag_keep) X(drag_gain) X(gravity) X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(guides)    \
+        X(drawn_multi) X(drawn) X(colliders) X(teleport) X(last_substep) X(body_density) X(sweep_axis) X(sweep_from)   \
+            X(sweep_sign)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
 
 std::vector<Field> fields_of_params()

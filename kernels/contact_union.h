@@ -1,6 +1,7 @@
-// Drawn strands stay outside of the colliders: guides do, but a mix of them or a turned copy need not.
-#ifndef COIF_INTERPOLATE_CONTACT_H
-#define COIF_INTERPOLATE_CONTACT_H
+// Out of all colliders at once, where they overlap too, as the spheres of a head do. Guides end their substep with it,
+// and drawn strands need it, because a mix of guides or a turned copy of one may lie inside.
+#ifndef COIF_CONTACT_UNION_H
+#define COIF_CONTACT_UNION_H
 #include "contact.h"
 #include "drawn_lanes.h"
 
