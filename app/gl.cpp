@@ -17,6 +17,7 @@ Window::Window(int width, int height, Visibility visibility)
     if (visibility == HIDDEN)
         SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // ctrl-c in the terminal ends coif, and is no wish to close a window
     if (SDL_Init(SDL_INIT_VIDEO) != 0)
         throw fail("no picture can be drawn: {}", SDL_GetError());
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);

@@ -1,35 +1,14 @@
 #version 150
-// Kajiya-Kay: a fibre scatters light as a thin cylinder does, so only angles to its tangent count (Kajiya, Kay. Rendering
-// fur with three dimensional textures. 1989; thesis eq. 5.9 and 5.10, with the exponents of listing A.2).
-#include "params"
-
+// Covers the ribbon's pixels, fading over the one at either edge. Light is the geometry shader's business.
 in RibbonData {
-    vec3 tangent;
-    vec3 to_camera;
-    vec2 shade;
-    vec4 across;
+    vec3 color;
+    vec3 across;
 } ribbon;
 
 out vec4 color; // linear, premultiplied
 
 void main()
 {
-    vec3 t = normalize(ribbon.tangent), l = params.look_light_direction.xyz, e = normalize(ribbon.to_camera);
-    float tl = clamp(dot(t, l), -1.0, 1.0), te = clamp(dot(t, e), -1.0, 1.0);
-    float sin_tl = sqrt(1.0 - tl * tl), sin_te = sqrt(1.0 - te * te);
-    float diffuse = params.look_diffuse * pow(sin_tl, params.look_diffuse_exponent);
-    // Listing A.2 measures the eye's angle from the other end of the tangent: the cone of reflection has its mirror there.
-    float specular = params.look_specular * pow(max(0.0, sin_tl * sin_te - tl * te), params.look_specular_exponent);
-
-    vec3 hair = mix(params.look_root_color.rgb, params.look_tip_color.rgb, ribbon.shade.x) * ribbon.shade.y;
-    float light = ribbon.across.w;
-    // Hair that hides from the light hides from the surroundings too, though far less: they come in from all sides.
-    float ambient = params.look_ambient * mix(0.4, 1.0, pow(light, 0.35));
-    vec3 lit = light * params.look_light_color.rgb;
-    // The highlight leaves the surface almost uncoloured.
-    vec3 sum = hair * (ambient + diffuse * lit) + mix(vec3(1.0), hair, 0.4) * specular * lit;
-
-    float coverage = clamp(ribbon.across.y - abs(ribbon.across.x), 0.0, 1.0);
-    float alpha = coverage * ribbon.across.z;
-    color = vec4(sum * alpha, alpha);
+    float alpha = clamp(ribbon.across.y - abs(ribbon.across.x), 0.0, 1.0) * ribbon.across.z;
+    color = vec4(ribbon.color * alpha, alpha);
 }

@@ -6,13 +6,15 @@
 //
 // The curve is smoothed as smoothing.curve says, waves are laid on along the strand's frame, and it is cut into as many
 // pieces as its bend on screen asks for, up to smoothing.subdivisions. A ribbon is never thinner than a pixel: below that
-// its coverage shrinks instead, and half a pixel on either side lets the edges fade.
+// its coverage shrinks instead, and half a pixel on either side lets the edges fade. Light is computed here, once a point
+// of the curve and not once a pixel: it changes with the tangent, and where that turns the pieces are short.
 layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 62) out;
 
 #include "params"
 #include "frame.glsl"
 #include "curve.glsl"
+#include "kajiya_kay.glsl"
 
 uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
 
@@ -23,12 +25,10 @@ in NodeData {
     int strand;
 } node[4];
 
-// 12 components and gl_Position's four, times 62 vertices: 992 of the 1024 that GL 3.2 promises.
+// 6 components and gl_Position's four, times 62 vertices: well below the 1024 that GL 3.2 promises.
 out RibbonData {
-    vec3 tangent;
-    vec3 to_camera;
-    vec2 shade;  // along the strand, and its own brightness
-    vec4 across; // position across the ribbon and half its drawn width, both in pixels; opacity; share of light
+    vec3 color;  // lit
+    vec3 across; // position across the ribbon and half its drawn width, both in pixels; opacity
 } ribbon;
 
 const float kBendTolerance = 0.2; // pixels that a piece may stray from the curve
@@ -104,13 +104,11 @@ void main()
         float width = params.look_width * (1.0 - params.look_taper * along * along) / size;
         float half_drawn = 0.5 * max(width, 1.0) + 0.5;
 
-        ribbon.tangent = tangent;
-        ribbon.to_camera = to_camera;
-        ribbon.shade = vec2(along, brightness);
-        float light = mix(node[1].light, node[2].light, t);
+        vec3 hair = mix(params.look_root_color.rgb, params.look_tip_color.rgb, along) * brightness;
+        ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, mix(node[1].light, node[2].light, t));
         for (float s = -1.0; s <= 1.0; s += 2.0)
         {
-            ribbon.across = vec4(s * half_drawn, half_drawn, params.look_opacity * min(width, 1.0), light);
+            ribbon.across = vec3(s * half_drawn, half_drawn, params.look_opacity * min(width, 1.0));
             gl_Position = frame.view_projection * vec4(here + side * (s * half_drawn * size), 1.0);
             EmitVertex();
         }

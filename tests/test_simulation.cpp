@@ -191,7 +191,7 @@ Groom mirrored_groom(int pairs, int nodes)
 {
     Random random(5);
     Groom groom = random_groom(random, 2 * pairs, nodes, 0);
-    groom.center = {0.0f, 0.02f, -0.01f};
+    groom.center = groom.middle = {0.0f, 0.02f, -0.01f};
     for (int s = 0; s < 2 * pairs; s += 2)
     {
         groom.segment_length[size_t(s + 1)] = groom.segment_length[size_t(s)];
