@@ -110,7 +110,6 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     {
         glBindBuffer(GL_UNIFORM_BUFFER, blocks[i].first);
         glBufferData(GL_UNIFORM_BUFFER, GLsizeiptr(blocks[i].second), nullptr, GL_DYNAMIC_DRAW);
-        glBindBufferBase(GL_UNIFORM_BUFFER, i, blocks[i].first); // BlockBinding
     }
 
     glBindVertexArray(strand_array_);

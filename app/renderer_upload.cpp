@@ -147,6 +147,9 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
 void Renderer::upload(const FrameInput& frame)
 {
     const HairParams params = device_params(frame.params);
+    // Bound anew each time: another renderer of the same context has its own.
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_block_);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kParamsBinding, params_block_);
     glBindBuffer(GL_UNIFORM_BUFFER, params_block_);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof params, &params);
 
@@ -157,8 +160,12 @@ void Renderer::upload(const FrameInput& frame)
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     const int resolution = frame.optical_depth.bytes() ? params.grid_resolution : 1;
     const float nothing = 0.0f;
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, resolution, resolution, resolution, 0, GL_RED, GL_FLOAT,
-                 resolution > 1 ? frame.optical_depth.as<float>() : &nothing);
+    const float* depths = resolution > 1 ? frame.optical_depth.as<float>() : &nothing;
+    if (depth_resolution_ != resolution)
+        glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, resolution, resolution, resolution, 0, GL_RED, GL_FLOAT, depths);
+    else
+        glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, resolution, resolution, resolution, GL_RED, GL_FLOAT, depths);
+    depth_resolution_ = resolution;
 
     upload_mesh(frame);
     if (params.render_show != 1)

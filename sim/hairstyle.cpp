@@ -250,7 +250,7 @@ void assign(Hairstyle& style, const std::string& assignment)
     const bool bare = text.empty() || text[0] == '#' || info->kind == Kind::CHOICE || info->kind == Kind::TEXT;
     try
     {
-        if (bare && (text.size() < 2 || text[0] != '"'))
+        if (bare && (text.size() < 2 || (text[0] != '"' && text[0] != '\'')))
             document.insert("value", text);
         else
         {

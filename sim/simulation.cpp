@@ -74,10 +74,10 @@ void Simulation::set_style(const Hairstyle& style, bool reload)
         meshes |= info.kind == Kind::TEXT;
     }
     Assets fresh = meshes ? load_assets(style) : Assets{}; // may throw; nothing has changed yet
+    if (regrow)
+        solver_->set_groom(grow(style.params, meshes ? fresh.scalp : assets_.scalp));
     if (meshes)
         assets_ = std::move(fresh);
-    if (regrow)
-        solver_->set_groom(grow(style.params, assets_.scalp));
     style_ = style;
     solver_->set_params(style.params);
     solver_->set_colliders(all_colliders(style_, assets_));

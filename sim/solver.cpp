@@ -47,45 +47,48 @@ Solver::~Solver()
 
 void Solver::set_params(const HairParams& params)
 {
-    const int resolution = buffers_.contains("density") ? params_.grid_resolution : 0;
-    params_ = device_params(params);
+    const HairParams wanted = device_params(params);
+    if (!buffers_.contains("density") || wanted.grid_resolution != params_.grid_resolution)
+    {
+        const size_t voxels = grid_voxels(wanted);
+        Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
+        for (const char* name : {"density", "blurred", "occupied", "depth"})
+            fresh[name] = allocate(device_, voxels * sizeof(int), "the density grid");
+        fresh["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
+        for (const char* name : {"density", "blurred", "depth"})
+            device_.queue.enqueueFillBuffer(fresh[name], 0, 0, voxels * sizeof(int));
+        device_.queue.enqueueFillBuffer(fresh["gradient"], 0, 0, voxels * 3 * sizeof(float));
+        buffers_ = fresh;
+    }
+    params_ = wanted;
     device_.queue.enqueueWriteBuffer(buffer("params"), CL_TRUE, 0, sizeof params_, &params_);
-    if (params_.grid_resolution == resolution)
-        return;
-    const size_t voxels = grid_voxels(params_);
-    buffers_["density"] = allocate(device_, voxels * sizeof(int), "the density grid");
-    buffers_["blurred"] = allocate(device_, voxels * sizeof(int), "the density grid");
-    buffers_["occupied"] = allocate(device_, voxels * sizeof(int), "the density grid");
-    buffers_["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
-    buffers_["depth"] = allocate(device_, voxels * sizeof(float), "the light's grid");
-    for (const char* name : {"density", "blurred", "depth"})
-        device_.queue.enqueueFillBuffer(buffer(name), 0, 0, voxels * sizeof(int));
-    device_.queue.enqueueFillBuffer(buffer("gradient"), 0, 0, voxels * 3 * sizeof(float));
 }
 
 void Solver::set_groom(const Groom& groom)
 {
     const bool same = groom.guides == groom_.guides && groom.nodes == groom_.nodes && !groom_.root_position.empty();
     const bool same_drawn = same && groom.drawn.size() == groom_.drawn.size();
-    groom_ = groom;
     const size_t strands = size_t(groom.blocks) * LANES, values = strands * size_t(groom.nodes) * 3;
     const size_t drawn_nodes = groom.drawn.size() * size_t(groom.nodes);
+    Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
     if (!same)
     {
-        buffers_["root_position"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
-        buffers_["root_direction"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
-        buffers_["segment_length"] = allocate(device_, strands * sizeof(float), "the roots");
-        buffers_["position"] = allocate(device_, values * sizeof(float), "the guides");
-        buffers_["velocity"] = allocate(device_, values * sizeof(float), "the guides");
-        buffers_["resets"] = allocate(device_, strands * sizeof(int), "the guides");
-        device_.queue.enqueueFillBuffer(buffer("resets"), 0, 0, strands * sizeof(int));
+        fresh["root_position"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
+        fresh["root_direction"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
+        fresh["segment_length"] = allocate(device_, strands * sizeof(float), "the roots");
+        fresh["position"] = allocate(device_, values * sizeof(float), "the guides");
+        fresh["velocity"] = allocate(device_, values * sizeof(float), "the guides");
+        fresh["resets"] = allocate(device_, strands * sizeof(int), "the guides");
+        device_.queue.enqueueFillBuffer(fresh["resets"], 0, 0, strands * sizeof(int));
     }
     if (!same_drawn)
     {
-        buffers_["strands"] = allocate(device_, groom.drawn.size() * sizeof(DrawnStrand), "the drawn strands");
-        buffers_["drawn_position"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
-        buffers_["drawn_frame"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
+        fresh["strands"] = allocate(device_, groom.drawn.size() * sizeof(DrawnStrand), "the drawn strands");
+        fresh["drawn_position"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
+        fresh["drawn_frame"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
     }
+    buffers_ = fresh;
+    groom_ = groom;
     write(device_, buffer("root_position"), groom.root_position);
     write(device_, buffer("root_direction"), groom.root_direction);
     write(device_, buffer("segment_length"), groom.segment_length);

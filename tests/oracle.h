@@ -64,10 +64,10 @@ std::vector<double> transmittance(const std::vector<int>& occupied, int resoluti
 double light_depth(const std::vector<float>& depth, Vec point, int resolution, const HairParams& params,
                    const StepInfo& info);
 
-// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, out of the colliders. Light apart.
 // Out of the union of all spheres, with room to spare.
 Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room);
 
+// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, out of the colliders. Light apart.
 std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
                                    const std::vector<float4>& colliders, const StepInfo& info);
 std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,

@@ -1,95 +1,14 @@
-// What whole steps must hold to, on grooms made for the purpose: mechanics that have closed answers, and extremes.
-#include "sim/error.h"
-#include "tests/on_device.h"
+// What whole steps must hold to, on grooms made for the purpose: mechanics that have closed answers.
+#include "tests/rig.h"
 
 #include <gtest/gtest.h>
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace coif
 {
 namespace
 {
 
-using Vec = glm::dvec3;
-constexpr float kStep = 1.0f / 60.0f;
 constexpr double kGravity = 9.81;
-
-// Parameters without what couples strands: no grid is needed then.
-HairParams uncoupled()
-{
-    HairParams params;
-    params.forces_repulsion = 0.0f;
-    params.look_self_shadow = 0.0f;
-    params.interpolation_strands = 0;
-    return params;
-}
-
-struct Rig
-{
-    HairParams params;
-    Groom groom;
-    Pose head;
-    Solver solver;
-    double time = 0.0;
-
-    Rig(const HairParams& p, const Groom& g, const Pose& at = {})
-        : params(p), groom(g), head(at), solver(test_device(), p, g, at)
-    {
-    }
-    void step(const Pose& to)
-    {
-        head = to;
-        time += kStep;
-        solver.step({{head, time, kStep}});
-    }
-    void rest(int steps)
-    {
-        for (int i = 0; i < steps; ++i)
-            step(head);
-    }
-    std::vector<Vec> values(const char* name) const
-    {
-        const size_t count = size_t(groom.blocks) * 16 * size_t(groom.nodes) * 3;
-        return from_blocks(read<float>(test_device(), solver.buffers().at(name), count), groom.guides, groom.nodes);
-    }
-    std::vector<Vec> positions() const { return values("position"); }
-    std::vector<Vec> velocities() const { return values("velocity"); }
-
-    double worst_stretch() const
-    {
-        double worst = 0.0;
-        const std::vector<Vec> x = positions();
-        for (int s = 0; s < groom.guides; ++s)
-            for (int k = 2; k < groom.nodes; ++k)
-            {
-                const size_t i = size_t(s * groom.nodes + k);
-                const double rest = double(groom.segment_length[size_t(s)]) * params.strand_spacing;
-                worst = std::max(worst, std::abs(glm::distance(x[i], x[i - 1]) / rest - 1.0));
-            }
-        return worst;
-    }
-};
-
-Pose pose(Vec origin, double angle = 0.0, Vec axis = {0, 1, 0})
-{
-    return {origin, glm::angleAxis(angle, glm::normalize(axis)), Vec(0.0)};
-}
-
-double farthest(const std::vector<Vec>& a, const std::vector<Vec>& b)
-{
-    double most = a.size() == b.size() ? 0.0 : INFINITY;
-    for (size_t i = 0; i < a.size() && i < b.size(); ++i)
-    {
-        const double d = glm::distance(a[i], b[i]);
-        most = std::max(most, std::isfinite(d) ? d : INFINITY);
-    }
-    return most;
-}
 
 TEST(Steps, RootsAreWhereTheHeadPutsThem)
 {
@@ -344,95 +263,6 @@ TEST(Steps, TenKilometresFromTheOriginHairMovesTheSame)
         there.step(pose(far + at, 0.5 * std::sin(0.1 * i)));
     }
     EXPECT_LE(farthest(here.positions(), there.positions()), 1e-5);
-}
-
-struct Extreme
-{
-    const char* name;
-    std::vector<std::pair<float HairParams::*, float>> values;
-    int iterations = 10;
-};
-
-TEST(Steps, ExtremesStayFiniteAndBounded)
-{
-    using P = HairParams;
-    const Extreme extremes[] = {
-        {"drag 100", {{&P::forces_drag, 100.0f}}},
-        {"no drag", {{&P::forces_drag, 0.0f}}},
-        {"gravity 10", {{&P::forces_gravity, 10.0f}}},
-        {"gravity -2", {{&P::forces_gravity, -2.0f}}},
-        {"no gravity, no drag", {{&P::forces_gravity, 0.0f}, {&P::forces_drag, 0.0f}}},
-        {"no stretching", {{&P::solver_stretching, 0.0f}}},
-        {"stiff", {{&P::solver_bending, 1.0f}}},
-        {"brush", {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 2.0f}}},
-        {"brush, unattenuated",
-         {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 2.0f}, {&P::solver_bending_attenuation, 0.0f}}},
-        {"shrunk", {{&P::solver_bending, 1.0f}, {&P::solver_bending_scale, 0.5f}, {&P::strand_spacing, 0.2f}}},
-        {"grown", {{&P::strand_spacing, 3.0f}}},
-        {"one sweep", {}, 1},
-        {"200 sweeps", {}, 200},
-        {"limp, 1 sweep", {{&P::solver_bending, 0.0f}}, 1},
-    };
-    Random random(8);
-    const Groom groom = random_groom(random, 17, 16, 0);
-    for (const Extreme& extreme : extremes)
-    {
-        HairParams params = uncoupled();
-        params.solver_iterations = extreme.iterations;
-        for (const auto& [field, value] : extreme.values)
-            params.*field = value;
-        Rig rig(params, groom);
-        rig.solver.set_colliders({{groom.center, 0.1f, true}, {{0.1f, -0.1f, 0.0f}, 0.08f, true}});
-        for (int i = 1; i <= 60; ++i)
-            rig.step(pose({0.3 * std::sin(0.3 * i), 0, 0}, 0.8 * std::sin(0.1 * i)));
-        // Nothing flies further than a free fall of a second under ten g, or a whip's end.
-        for (const Vec& x : rig.positions())
-            ASSERT_LT(glm::length(x), extreme.values.empty() ? 1.0 : 60.0) << extreme.name; // false for NaN too
-        EXPECT_EQ(rig.solver.resets(), std::vector<int>(17, 0)) << extreme.name;
-    }
-}
-
-TEST(Steps, WindThatIsGoneAndHairOfNoLengthAreNoTrouble)
-{
-    struct
-    {
-        const char* name;
-        glm::dvec3 wind; // the motion's
-        float length;
-    } const cases[] = {{"no wind", {0, 0, 0}, 0.3f},
-                       {"storm", {100, -100, 100}, 0.3f},
-                       {"a breath", {1e-30, 0, 0}, 0.3f},
-                       {"shortest hair", {10, 0, 0}, 0.002f},
-                       {"hair of no length", {10, 0, 0}, 0.0f}};
-    for (const auto& c : cases)
-    {
-        HairParams params = uncoupled();
-        params.forces_turbulence = 4.0f;
-        Rig rig(params, one_strand(16, c.length, {0, 0.1f, 0}, {0, 1, 0}));
-        rig.solver.set_colliders({{{0, 0, 0}, 0.1f, true}});
-        for (int i = 1; i <= 60; ++i)
-        {
-            Pose at = pose({0.02 * i, 0, 0});
-            at.wind = i > 30 ? c.wind : Vec(0.0);
-            rig.step(at);
-        }
-        for (const Vec& x : rig.positions())
-            ASSERT_LT(glm::distance(x, Vec(0, 0.1, 0)), 2.0 * c.length + 0.03) << c.name;
-        EXPECT_EQ(rig.solver.resets(), std::vector<int>(1, 0)) << c.name;
-    }
-}
-
-TEST(Steps, ANodeOnACollidersCentreFindsItsWayOut)
-{
-    HairParams params = uncoupled();
-    Rig rig(params, one_strand(16, 0.28f, {0, 0, 0}, {0, -1, 0}));
-    rig.rest(10);
-    const Vec node = rig.positions()[9];
-    rig.solver.set_colliders({{glm::vec3(node), 0.03f, true}});
-    rig.rest(60);
-    for (const Vec& x : rig.positions())
-        EXPECT_GE(glm::distance(x, node), 0.03f - 1e-7);
-    EXPECT_EQ(rig.solver.resets(), std::vector<int>(1, 0));
 }
 
 } // namespace
