@@ -31,7 +31,7 @@ out RibbonData {
     vec3 across; // position across the ribbon and half its drawn width, both in pixels; opacity
 } ribbon;
 
-const float kBendTolerance = 0.35; // pixels that a piece may stray from the curve
+const float kBendTolerance = 0.5; // pixels that a piece may stray from the curve
 
 vec3 curve_at(float t)
 {
