@@ -31,6 +31,25 @@ template <typename Action> void Editor::guarded(Action&& action)
         message_ = e.what();
         message_is_error_ = true;
     }
+    catch (const std::exception& e) // the device, the driver or the file system: no reason to lose what is unsaved
+    {
+        message_ = fmt::format("something failed underneath: {}; save your work", e.what());
+        message_is_error_ = true;
+    }
+}
+
+void Editor::reset_hair()
+{
+    guarded([&] { simulation_->reset(); });
+}
+
+// Into the style, relative to the head: that is where a style's camera is when it is opened.
+void Editor::keep_view()
+{
+    Camera kept = camera_;
+    kept.target -= simulation_->solver().head().origin;
+    keep_camera(kept, style_.params);
+    apply();
 }
 
 Editor::Editor(const Options& options)
@@ -42,6 +61,7 @@ Editor::Editor(const Options& options)
     ImGui::StyleColorsDark();
     ImGui::GetStyle().FrameRounding = 3.0f;
     ImGui::GetStyle().WindowBorderSize = 0.0f;
+    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 1.0f; // nothing is drawn behind the panel
     for (const char* font :
          {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
         if (std::filesystem::exists(font))
@@ -82,6 +102,7 @@ void Editor::apply()
 
 void Editor::take(const std::filesystem::path& file)
 {
+    held_.what = Grab::NONE;
     guarded(
         [&]
         {
@@ -133,13 +154,15 @@ bool Editor::save(const std::filesystem::path& file)
 std::filesystem::path Editor::screenshot()
 {
     std::filesystem::path file;
-    for (int n = 1; file.empty() || std::filesystem::exists(file); ++n)
+    std::error_code error;
+    for (int n = 1; file.empty() || std::filesystem::exists(file, error); ++n)
         file = fmt::format("{}-{:03}.png", style_.name(), n);
     int width = view_width_, height = view_height_;
     std::sscanf(screenshot_size_.c_str(), "%dx%d", &width, &height);
     guarded(
         [&]
         {
+            simulation_->solver().draw();
             FrameInput input = frame_input(*simulation_, camera_);
             input.samples = 16;
             input.transparent = transparent_;
@@ -192,7 +215,7 @@ void Editor::handle_key(const SDL_Keysym& key)
         paused_ = step_once_ = true;
         break;
     case SDLK_r:
-        simulation_->reset();
+        reset_hair();
         break;
     case SDLK_p:
     case SDLK_F12:
@@ -206,8 +229,10 @@ void Editor::handle_key(const SDL_Keysym& key)
         apply();
         break;
     case SDLK_k:
-        keep_camera(camera_, style_.params);
-        apply();
+        keep_view();
+        break;
+    case SDLK_F5:
+        guarded([&] { renderer_->reload_shaders(); });
         break;
     case SDLK_TAB:
         show_panel_ = !show_panel_;
@@ -280,7 +305,7 @@ void Editor::handle(const SDL_Event& event)
         SDL_free(event.drop.file);
         break;
     case SDL_KEYDOWN:
-        if (!io.WantTextInput)
+        if (!io.WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) // a dialog has the keyboard
             handle_key(event.key.keysym);
         break;
     case SDL_MOUSEBUTTONDOWN:
@@ -301,17 +326,18 @@ void Editor::handle(const SDL_Event& event)
 void Editor::advance(double seconds)
 {
     const bool played = simulation_->playing();
+    bool stepped = step_once_;
     if (step_once_)
         simulation_->step(hand_);
     else if (!paused_)
-        simulation_->advance(seconds, hand_, kMostSteps);
+        stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
     if (played && !simulation_->playing())
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
         hand_ = simulation_->hand();
     camera_.target += simulation_->jumped() - jumped_; // a teleport takes the view along
     jumped_ = simulation_->jumped();
-    if (step_once_ || !paused_)
+    if (stepped)
         redraw_ = std::max(redraw_, 1);
     step_once_ = false;
 }
@@ -319,14 +345,14 @@ void Editor::advance(double seconds)
 bool Editor::frame()
 {
     SDL_Event event;
-    if (paused_ && redraw_ <= 0 && SDL_WaitEventTimeout(&event, kIdleWait))
+    if (redraw_ <= 0 && SDL_WaitEventTimeout(&event, paused_ ? kIdleWait : 1))
         handle(event);
     while (SDL_PollEvent(&event))
         handle(event);
     const Uint64 tick = SDL_GetPerformanceCounter();
     const double seconds = double(tick - last_tick_) / double(SDL_GetPerformanceFrequency());
     last_tick_ = tick;
-    advance(seconds);
+    guarded([&] { advance(seconds); });
     if (closed_ || redraw_ <= 0)
         return !closed_;
     --redraw_;

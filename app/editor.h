@@ -61,7 +61,9 @@ class Editor
     void draw_dialogs();
     void draw_status();
     void take(const std::filesystem::path& file); // opens without asking
-    void apply();                                 // what changed in style_
+    void reset_hair();
+    void keep_view();
+    void apply(); // what changed in style_
     void carry_out(const Intent& intent);
     template <typename Action> void guarded(Action&& action); // errors become the message
 

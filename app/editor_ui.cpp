@@ -30,6 +30,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
+                            "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
                             "ctrl-q                close";
@@ -86,13 +87,10 @@ void Editor::draw_tools()
         paused_ = step_once_ = true;
     ImGui::SameLine();
     if (ImGui::Button("Reset hair"))
-        simulation_->reset();
+        reset_hair();
     ImGui::SameLine();
     if (ImGui::Button("Keep camera"))
-    {
-        keep_camera(camera_, style_.params);
-        apply();
-    }
+        keep_view();
     int key = 0;
     for (const std::string& motion : motion_names())
     {

@@ -34,7 +34,7 @@ Window::Window(int width, int height, Visibility visibility)
         SDL_Quit();
         throw fail("coif needs OpenGL 3.2 core, and this machine does not give it: {}", reason);
     }
-    SDL_GL_SetSwapInterval(0);
+    SDL_GL_SetSwapInterval(visibility == SHOWN ? 1 : 0);
 }
 
 Window::~Window()

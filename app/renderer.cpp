@@ -61,6 +61,11 @@ void keep_camera(const Camera& camera, HairParams& params)
         F4(rounded(camera.target.x, 1e-3), rounded(camera.target.y, 1e-3), rounded(camera.target.z, 1e-3), 0.0f);
 }
 
+int FrameInput::light_resolution() const
+{
+    return int(std::lround(std::cbrt(double(optical_depth.bytes()) / sizeof(float))));
+}
+
 FrameInput frame_input(const Simulation& simulation, const Camera& camera)
 {
     FrameInput frame;
@@ -319,8 +324,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     block.head_row2 = info.head_row2;
     block.grid_corner = info.grid_corner;
     block.sweep = info.sweep;
-    const int slices[4] = {info.sweep_axis, info.sweep_from, info.sweep_sign,
-                           frame.optical_depth.bytes() ? frame.params.grid_resolution : 0};
+    const int slices[4] = {info.sweep_axis, info.sweep_from, info.sweep_sign, frame.light_resolution()};
     std::copy(slices, slices + 4, block.slices);
     glBindBuffer(GL_UNIFORM_BUFFER, frame_block_);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof block, &block);

@@ -35,6 +35,8 @@ struct FrameInput
     Camera camera;
     bool transparent = false; // no backdrop: alpha instead
     int samples = 1;          // jittered pictures that are averaged
+
+    int light_resolution() const; // side of optical_depth; 0 without shadow
 };
 
 // Takes the views; waits for the device.

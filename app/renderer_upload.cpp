@@ -158,7 +158,7 @@ void Renderer::upload(const FrameInput& frame)
     glTexImage1D(GL_TEXTURE_1D, 0, GL_RG32F, kWaveSamples, 0, GL_RG, GL_FLOAT, waves.data());
 
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
-    const int resolution = frame.optical_depth.bytes() ? params.grid_resolution : 1;
+    const int resolution = std::max(1, frame.light_resolution());
     const float nothing = 0.0f;
     const float* depths = resolution > 1 ? frame.optical_depth.as<float>() : &nothing;
     if (depth_resolution_ != resolution)

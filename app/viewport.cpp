@@ -123,7 +123,9 @@ glm::vec3 dragged_collider(const Grab& held, const Simulation& simulation, const
     const glm::dvec3 center = held.origin_before + now - held.start;
     const Pose& head = simulation.solver().head();
     const bool on_head = simulation.style().host.colliders.at(held.collider).on_head;
-    return glm::vec3(on_head ? glm::conjugate(head.turn) * (center - head.origin) : center);
+    // What a file may say: near the horizon a pixel is very far.
+    return glm::clamp(glm::vec3(on_head ? glm::conjugate(head.turn) * (center - head.origin) : center), -100.0f,
+                      100.0f);
 }
 
 } // namespace coif

@@ -5,7 +5,8 @@
 // The sweep runs along rays, one a voxel of the first slice, so that no ray needs another: along the grid's axis that
 // the light leans to most, slice after slice, each slice moved sideways by the light's slant. A ray that leaves at one
 // side comes in again, empty, at the other. So depth[slice][j][i] belongs to the ray (i, j), not to the voxel (i, j),
-// and a point finds its ray by taking the slant away. Read by OpenCL for hair and by GLSL for the head.
+// and a point finds its ray by taking the slant away. Read by GLSL for the head; kernels/interpolate_light.h has it
+// for lanes.
 #ifndef COIF_LIGHT_GRID_H
 #define COIF_LIGHT_GRID_H
 

@@ -96,7 +96,7 @@ typedef struct DrawnStrand
     float4 root;    // on the scalp, in the head's frame, m; w: share of the guides' length at which it is cut
     float4 weights; // of the three guides; w unused. For a copy: the two angles (rad) that turn it
     int guide0, guide1, guide2;
-    int seed; // of everything random about this strand
+    int seed; // of what the kernels draw at random for this strand
 } DrawnStrand;
 
 #ifdef __cplusplus

@@ -113,9 +113,9 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     }
 
     // The last word, in one walk from root to tip: hair that shall not stretch is taken back to its length, and hair
-    // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two spheres
-    // that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by then. Always as many turns: one strand's need must not change its
-    // neighbours' bits.
+    // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two
+    // spheres that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by
+    // then. Always as many turns: one strand's need must not change its neighbours' bits.
     const bool inextensible = params->solver_stretching >= 1.0f;
     for (int i = 2; i < NODES; ++i)
         for (int turns = 0; turns < CLOSING_TURNS; ++turns)

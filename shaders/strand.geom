@@ -44,9 +44,13 @@ vec3 wave_at(float t, int seed)
 {
     float along = mix(node[1].along, node[2].along, t);
     float distance_from_root = mix(node[1].normal.w, node[2].normal.w, t);
-    vec3 tangent = normalize(gl_in[2].gl_Position.xyz - gl_in[1].gl_Position.xyz);
+    // The tangent that both neighbours give at a node is the same, so waves join there.
+    vec3 tangent = mix(gl_in[2].gl_Position.xyz - gl_in[0].gl_Position.xyz,
+                       gl_in[3].gl_Position.xyz - gl_in[1].gl_Position.xyz, t);
+    tangent *= inversesqrt(max(dot(tangent, tangent), 1e-20));
     vec3 normal = mix(node[1].normal.xyz, node[2].normal.xyz, t);
-    normal = normalize(normal - tangent * dot(normal, tangent));
+    normal -= tangent * dot(normal, tangent);
+    normal *= inversesqrt(max(dot(normal, normal), 1e-20));
     float first = texture(wave, wave_place(seed, distance_from_root, params.wave_normal_frequency,
                                            params.wave_normal_randomness)).r;
     float second = texture(wave, wave_place(seed, distance_from_root, params.wave_binormal_frequency,

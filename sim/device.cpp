@@ -139,7 +139,9 @@ try
         throw fail("{} takes {} MB, more than the {} MB that {} gives one buffer; draw fewer strands or nodes", purpose,
                    bytes >> 20, limit >> 20, device.name);
     // An empty buffer is no buffer for OpenCL; one that can be mapped costs no copy on devices in host memory.
-    return cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, std::max<size_t>(bytes, 16));
+    const bool shared = device.device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>();
+    return cl::Buffer(device.context, CL_MEM_READ_WRITE | (shared ? CL_MEM_ALLOC_HOST_PTR : 0),
+                      std::max<size_t>(bytes, 16));
 }
 catch (const cl::Error& e)
 {
@@ -156,8 +158,16 @@ Mapped::Mapped(const Device& device, const cl::Buffer& buffer, size_t bytes)
 
 Mapped::~Mapped()
 {
-    if (pointer_)
+    if (!pointer_)
+        return;
+    try
+    {
         queue_.enqueueUnmapMemObject(buffer_, pointer_);
+    }
+    catch (const cl::Error&)
+    {
+        // A device that is lost has nothing mapped.
+    }
 }
 
 Mapped& Mapped::operator=(Mapped&& other) noexcept

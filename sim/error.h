@@ -8,8 +8,8 @@ namespace coif
 {
 
 // The one exception: bad input, a file that cannot be read or written, a device that says no. The message is a whole
-// sentence that names the place and the remedy. It is caught in main(), where it ends the program with status 1, and at
-// the editor's reload, which keeps the last good state. A broken invariant is a bug and asserts instead.
+// sentence that names the place and the remedy. It is caught in main(), where it ends the program with status 1, and in
+// the editor, which shows it and keeps the last good state. A broken invariant is a bug and asserts instead.
 struct Error : std::runtime_error
 {
     using std::runtime_error::runtime_error;

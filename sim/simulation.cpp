@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace coif
 {
@@ -76,11 +77,16 @@ void Simulation::set_style(const Hairstyle& style, bool reload)
     Assets fresh = meshes ? load_assets(style) : Assets{}; // may throw; nothing has changed yet
     if (regrow)
         solver_->set_groom(grow(style.params, meshes ? fresh.scalp : assets_.scalp));
+    solver_->set_params(style.params);
+    solver_->set_colliders(all_colliders(style, meshes ? fresh : assets_));
     if (meshes)
         assets_ = std::move(fresh);
+    if (style.params.solver_rate != style_.params.solver_rate)
+    {
+        rate_since_ = time_; // time goes on from here at the new rate
+        steps_since_ = steps_;
+    }
     style_ = style;
-    solver_->set_params(style.params);
-    solver_->set_colliders(all_colliders(style_, assets_));
 }
 
 void Simulation::play(std::optional<Motion> motion)
@@ -101,13 +107,16 @@ void Simulation::step(const Pose& hand)
 {
     const double h = step_seconds();
     const int substeps = std::max(1, int(std::ceil(h * 60.0 - 1e-6)));
+    // A leap of the hand is one, however the step is cut: all of it comes in the first substep.
+    const double angle = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(hand_.turn, hand.turn))));
+    const bool leap = glm::distance(hand_.origin, hand.origin) > 0.25 || angle > std::numbers::pi / 2.0;
     std::vector<Substep> all;
     for (int i = 1; i <= substeps; ++i)
     {
         const double share = double(i) / substeps;
         Pose pose;
-        pose.origin = glm::mix(hand_.origin, hand.origin, share);
-        pose.turn = glm::slerp(hand_.turn, hand.turn, share);
+        pose.origin = glm::mix(hand_.origin, hand.origin, leap ? 1.0 : share);
+        pose.turn = glm::slerp(hand_.turn, hand.turn, leap ? 1.0 : share);
         if (motion_)
             pose = pose * pose_at(*motion_, motion_time_ + h * share);
         all.push_back({pose, time_ + h * share, float(h / substeps)});
@@ -115,7 +124,7 @@ void Simulation::step(const Pose& hand)
     solver_->step(all);
     hand_ = hand;
     ++steps_;
-    time_ = double(steps_) * h; // not summed up: a million steps must not drift
+    time_ = rate_since_ + double(steps_ - steps_since_) * h; // not summed up: a million steps must not drift
     motion_time_ += h;
     if (motion_ && motion_time_ > motion_->seconds)
         play(std::nullopt);

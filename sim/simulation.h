@@ -69,6 +69,8 @@ class Simulation
     std::optional<Motion> motion_;
     double motion_time_ = 0.0;
     double time_ = 0.0, owed_ = 0.0; // s
+    double rate_since_ = 0.0;        // s, and steps, when solver.rate last changed
+    long steps_since_ = 0;
     long steps_ = 0, dropped_ = 0;
     Pose hand_;
 };

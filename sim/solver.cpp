@@ -171,7 +171,9 @@ void Solver::launch_strands(const std::string& pass, const std::string& extra, s
 {
     // On CPUs each work-item is a group of its own: left to itself PoCL makes one group of few work-items, on one core.
     // On GPUs whole groups: a number of strands that has no divisors would else be cut into groups of one.
-    const size_t width = size_t(device_.width), group = width > 1 ? 1 : 64;
+    const size_t width = size_t(device_.width);
+    const size_t most = kernel(pass, extra).handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
+    const size_t group = width > 1 ? 1 : std::min<size_t>(64, most);
     const size_t items = (strands + width - 1) / width;
     launch(pass, extra, (items + group - 1) / group * group, group);
 }
@@ -244,7 +246,7 @@ void Solver::step(const std::vector<Substep>& wanted)
 
 void Solver::draw()
 {
-    // Light, colliders and parameters as they are now, though time may stand still.
+    // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
     StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
                                    int(colliders_.size()), true);
     upload(info);
