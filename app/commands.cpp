@@ -17,6 +17,8 @@ static int run_check(const std::vector<std::string>& styles)
     for (const std::string& name : styles)
         try
         {
+            if (name.empty())
+                throw Error("check: a style without a name");
             Hairstyle style = load_hairstyle(find_style(name));
             load_assets(style);
             fmt::print("{}: good\n", name);
@@ -67,9 +69,9 @@ static int run_edit(Options options)
     if (has_display())
         return edit(options);
     options.output = find_style(options.style).stem().string() + ".png";
+    save_png(options.output, take_shot(options, {}));
     fmt::print(stderr, "coif: there is no display, so here is a picture instead: {}\n",
                std::filesystem::absolute(options.output).string());
-    save_png(options.output, take_shot(options, {}));
     return 0;
 }
 

@@ -20,6 +20,14 @@ static constexpr Uint32 kIdleWait = 50; // ms between looks at a paused window
 static constexpr int kRedraw = 3;       // frames after an event: a window of the panel needs two to find its size
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
+// When a file was last written, as far as can be told.
+static std::filesystem::file_time_type written_at(const std::filesystem::path& file)
+{
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(file, error);
+    return error ? std::filesystem::file_time_type::min() : time;
+}
+
 template <typename Action> void Editor::guarded(Action&& action)
 {
     try
@@ -76,6 +84,7 @@ Editor::Editor(const Options& options)
     simulation_->settle(kSettle);
     // --set changes the style on screen, not what is on disk.
     saved_ = options.sets.empty() ? style_ : load_hairstyle(style_.file);
+    known_time_ = written_at(style_.file);
     camera_ = camera_of(style_.params);
     apply();
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
@@ -109,6 +118,7 @@ void Editor::take(const std::filesystem::path& file)
             const Hairstyle fresh = load_hairstyle(file);
             simulation_->set_style(fresh, true);
             style_ = saved_ = fresh;
+            known_time_ = written_at(file);
             simulation_->play(std::nullopt);
             simulation_->reset();
             simulation_->settle(kSettle);
@@ -136,12 +146,23 @@ void Editor::carry_out(const Intent& intent)
 
 bool Editor::save(const std::filesystem::path& file)
 {
+    // Somebody else's change is not overwritten unasked: the second save in a row is the answer.
+    std::error_code error;
+    if (file == style_.file && std::filesystem::exists(file, error) && written_at(file) != known_time_)
+    {
+        known_time_ = written_at(file);
+        message_ = file.string() + " was changed by another program; save again to replace that, or open it again";
+        message_is_error_ = true;
+        redraw_ = kRedraw;
+        return false;
+    }
     bool done = false;
     guarded(
         [&]
         {
             save_hairstyle(style_, file);
             saved_ = style_;
+            known_time_ = written_at(file);
             simulation_->set_style(style_);
             message_ = "saved " + file.string();
             message_is_error_ = false;

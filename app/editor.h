@@ -72,6 +72,7 @@ class Editor
     Hairstyle style_, saved_; // as edited; as last read or written
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
+    std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
     Camera camera_;
     PanelState panel_;
     Grab held_;

@@ -22,7 +22,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "space                 pause, go on\n"
                             ".                     one step\n"
                             "r                     reset the hair\n"
-                            "1 to 9                play a motion\n"
+                            "1 to 7                play a motion\n"
                             "esc                   stop the motion\n"
                             "g                     drawn strands, guides, both\n"
                             "k                     keep the camera in the style\n"
@@ -34,6 +34,11 @@ static const char kHelp[] = "drag the head         move it\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
                             "ctrl-q                close";
+
+static std::filesystem::path with_suffix(std::filesystem::path file)
+{
+    return file.has_extension() ? file : file.replace_extension(".toml");
+}
 
 void Editor::draw_ui()
 {
@@ -232,14 +237,15 @@ void Editor::draw_dialogs()
         ImGui::SetNextItemWidth(480.0f);
         if (ImGui::IsWindowAppearing())
             ImGui::SetKeyboardFocusHere();
-        const bool enter = ImGui::InputText("##file", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
+        const bool enter = ImGui::InputText("##file", &save_as_,
+                                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
         std::error_code error;
-        const bool exists = !save_as_.empty() && std::filesystem::exists(save_as_, error);
+        const bool exists = !save_as_.empty() && std::filesystem::exists(with_suffix(save_as_), error);
         if (exists)
             ImGui::TextColored(ImVec4(1.0f, 0.78f, 0.35f, 1.0f), "That file exists and will be replaced.");
         // The return key does not replace a file: that takes a click.
         if ((enter && !exists) || ImGui::Button(exists ? "Replace" : "Save"))
-            if (!save_as_.empty() && save(save_as_))
+            if (!save_as_.empty() && save(with_suffix(save_as_)))
                 ImGui::CloseCurrentPopup();
         ImGui::SameLine();
         if (ImGui::Button("Cancel"))
@@ -263,8 +269,8 @@ void Editor::draw_dialogs()
             }
         ImGui::Separator();
         ImGui::SetNextItemWidth(480.0f);
-        const bool enter =
-            ImGui::InputTextWithHint("##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue);
+        const bool enter = ImGui::InputTextWithHint(
+            "##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
         if ((ImGui::Button("Open") || enter) && !save_as_.empty())
         {
             open(save_as_);

@@ -38,8 +38,8 @@ static void set_sweep(StepInfo& info, const HairParams& params, const Groom& gro
     // A guide's node stands for a segment of every drawn strand that follows it. Mean projected area of a fibre that
     // may lie any way: pi / 4 of its length times its width.
     const double segment = double(groom.longest) * params.strand_spacing / (groom.nodes - 2);
-    const double area =
-        std::numbers::pi / 4.0 * segment * params.look_width * double(groom.drawn.size()) / std::max(groom.guides, 1);
+    const double area = std::numbers::pi / 4.0 * segment * params.look_width *
+                        double(std::max<size_t>(groom.drawn.size(), 1)) / std::max(groom.guides, 1);
     const double extinction = params.look_self_shadow * area / (DENSITY_ONE * voxel * voxel * voxel);
     info.sweep =
         vector4({-light[axis == 0 ? 1 : 0] / lean, -light[axis == 2 ? 1 : 2] / lean, voxel / lean}, extinction);

@@ -93,7 +93,7 @@ StepInfo lit_info(Random& random, int resolution, glm::dvec3 light, HairParams& 
     return make_step_info(params, groom, {}, glm::dvec3(0.0), Substep{}, 0, true);
 }
 
-TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInside)
+TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInsideWithSoftEdges)
 {
     HairParams params;
     const StepInfo info = lit_info(random, resolution, {0.0, 1.0, 0.0}, params);
@@ -110,19 +110,20 @@ TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInside)
     launch("add_bodies", buffers, cl::NDRange(size_t(resolution), size_t(resolution), colliders.size()));
     const std::vector<int> occupied = read<int>(device, buffers.at("occupied"), voxels);
     const std::vector<double> depth = oracle::depth_in_bodies(colliders, resolution, info);
-    int inside = 0, unsure = 0, wrong = 0;
+    int inside = 0, edge = 0;
+    double worst = 0.0;
     for (size_t i = 0; i < voxels; ++i)
     {
-        // Coordinates of up to 64 voxels carry 4e-6 of rounding; at the surface either answer is right.
-        if (std::abs(depth[i]) < 1e-4)
-            ++unsure;
-        else
-            wrong += occupied[i] != (depth[i] > 0.0 ? info.body_density : density[i]);
-        inside += depth[i] > 0.0;
+        const double share = std::clamp(depth[i] + 0.5, 0.0, 1.0);
+        const double expected = std::max(double(density[i]), std::floor(share * info.body_density));
+        worst = std::max(worst, std::abs(occupied[i] - expected));
+        inside += share == 1.0;
+        edge += share > 0.0 && share < 1.0;
     }
-    EXPECT_EQ(wrong, 0);
-    EXPECT_LE(unsure, int(voxels / 1000));
+    // Coordinates of up to 64 voxels carry 4e-6 of rounding, the distance a few of those; and one for the fraction.
+    EXPECT_LE(worst, 1.0 + 3e-5 * info.body_density);
     EXPECT_GT(inside, 0);
+    EXPECT_GT(edge, 0);
 }
 
 TEST_P(GridPasses, TransmittanceIsTheTwinsFromEverySide)
