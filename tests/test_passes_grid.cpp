@@ -98,10 +98,13 @@ TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInsideWithSoftEdges)
     HairParams params;
     const StepInfo info = lit_info(random, resolution, {0.0, 1.0, 0.0}, params);
     std::vector<float4> colliders;
-    for (int i = 0; i < 12; ++i) // some reach over the grid's border, one is smaller than a voxel
+    for (int i = 0; i < 12; ++i) // some reach over the grid's border; one is smaller than a voxel, one larger
     {
         const glm::dvec3 at = random.vector(0.3);
-        colliders.push_back(F4(float(at.x), float(at.y), float(at.z), float(i == 0 ? 1e-4 : random.in(0.01, 0.15))));
+        colliders.push_back(F4(float(at.x), float(at.y), float(at.z),
+                               float(i == 0   ? 1e-4
+                                     : i == 1 ? 3.0 * info.grid_corner.w
+                                              : random.in(0.01, 0.15))));
     }
     const std::vector<int> density = random_density(100);
     const Buffers buffers = {{"occupied", filled(device, density)},
