@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/editor.h"
+#include "app/lab.h"
 #include "app/report.h"
 #include "app/shot.h"
 #include "sim/error.h"
@@ -129,6 +130,25 @@ int run_command(int argc, char** argv)
     CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
     save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
 
+    LabOptions hung;
+    CLI::App* lab_command =
+        with_device(app.add_subcommand("lab", "Move one strand as its root is told, for comparing with references"));
+    lab_command->add_option("--nodes", hung.strand.nodes, "Nodes, counting node 0, which is the root")
+        ->capture_default_str();
+    lab_command->add_option("--length", hung.strand.length, "m")->capture_default_str();
+    lab_command->add_option("--drag", hung.drag, "1/s")->capture_default_str();
+    lab_command->add_option("--tip-mass", hung.strand.tip_mass, "Mass of the last node against the others")
+        ->capture_default_str();
+    lab_command->add_option("--gamma", hung.gamma, "Droop number, clamped along the start direction; else no bending");
+    lab_command->add_option("--angle", hung.strand.angle, "Of the straight start from straight down, towards +x, deg")
+        ->capture_default_str();
+    lab_command->add_option("--solver", hung.solver, "direct or pbd; the default is what styles have");
+    lab_command->add_option("--fps", hung.fps, "Rows a second")->capture_default_str();
+    lab_command->add_option("--root", hung.root, "CSV of t,x,y,z of node 0; a header line is allowed");
+    CLI::Option* lab_seconds = lab_command->add_option("--seconds", options.seconds, "How long");
+    lab_command->add_option("--set", options.sets, "group.key=value of solver and forces")->allow_extra_args(false);
+    lab_command->add_option("-o,--out", options.output, "CSV to write instead of the terminal");
+
     // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.
     std::vector<std::string> words(argv + 1, argv + argc);
     bool is_command = !words.empty() && words[0].rfind("-h", 0) != 0 && words[0].rfind("--help", 0) != 0;
@@ -154,6 +174,8 @@ int run_command(int argc, char** argv)
         return run_shot(options, shot, size);
     if (report_command->parsed())
         return report(options, wanted);
+    if (lab_command->parsed())
+        return lab(options, hung, lab_seconds->count() > 0);
     if (check_command->parsed())
         return run_check(styles);
     if (keys_command->parsed())

@@ -22,6 +22,19 @@ static inline Points turn_by(float4 row0, float4 row1, float4 row2, Points p)
                   row2.x * p.x + row2.y * p.y + row2.z * p.z);
 }
 
+// A point of each lane, axis after axis as guides lie.
+static inline Points load_lanes(global const float* from)
+{
+    return points(LANES_LOAD(from), LANES_LOAD(from + LANES), LANES_LOAD(from + 2 * LANES));
+}
+
+static inline void store_lanes(Points p, global float* to)
+{
+    LANES_STORE(p.x, to);
+    LANES_STORE(p.y, to + LANES);
+    LANES_STORE(p.z, to + 2 * LANES);
+}
+
 static inline real dot_lanes(Points a, Points b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static inline Points select_points(Points no, Points yes, whole which)

@@ -1,36 +1,38 @@
 // What the air and the other hair do to a node (thesis 5.1.2 and 5.1.3): accelerations, m/s^2.
 #ifndef COIF_FORCES_H
 #define COIF_FORCES_H
+#include "drawn_lanes.h"
 #include "grid.h"
 #include "turbulence.h"
 
-// Wind across the strand, eq. 5.2 (Oshita 2004): |w x t| / |w| w, t the strand's unit tangent.
-static inline void add_wind(real* ax, real* ay, real* az, real x, real y, real z, real tx, real ty, real tz,
-                            constant StepInfo* info)
+// Wind with its gusts at a point.
+static inline Points wind_at(Points p, constant StepInfo* info)
 {
-    const real gx = x * (1.0f / 0.15f) + info->gust_origin.x;
-    const real gy = y * (1.0f / 0.15f) + info->gust_origin.y;
-    const real gz = z * (1.0f / 0.15f) + info->gust_origin.z;
+    const real gx = p.x * (1.0f / 0.15f) + info->gust_origin.x;
+    const real gy = p.y * (1.0f / 0.15f) + info->gust_origin.y;
+    const real gz = p.z * (1.0f / 0.15f) + info->gust_origin.z;
     const float gust_size = info->wind.w * info->gust_origin.w;
-    const real wx = info->wind.x + gust_size * gust(gx, gy, gz, 0);
-    const real wy = info->wind.y + gust_size * gust(gx, gy, gz, 1);
-    const real wz = info->wind.z + gust_size * gust(gx, gy, gz, 2);
-    const real cx = wy * tz - wz * ty, cy = wz * tx - wx * tz, cz = wx * ty - wy * tx;
-    const real across = cx * cx + cy * cy + cz * cz;
-    const real all = fmax((wx * wx + wy * wy + wz * wz) * (tx * tx + ty * ty + tz * tz), (real)(1e-24f));
-    const real share = sqrt(across / all); // sine of the angle between wind and strand
-    *ax += share * wx;
-    *ay += share * wy;
-    *az += share * wz;
+    return points(info->wind.x + gust_size * gust(gx, gy, gz, 0), info->wind.y + gust_size * gust(gx, gy, gz, 1),
+                  info->wind.z + gust_size * gust(gx, gy, gz, 2));
 }
 
-static inline void add_repulsion(real* ax, real* ay, real* az, real x, real y, real z, global const float* gradient,
-                                 constant StepInfo* info)
+// Wind across the strand, eq. 5.2 (Oshita 2004): |w x t| / |w| w, t the strand's unit tangent.
+static inline Points across_wind(Points w, Points t)
+{
+    const real cx = w.y * t.z - w.z * t.y, cy = w.z * t.x - w.x * t.z, cz = w.x * t.y - w.y * t.x;
+    const real across = cx * cx + cy * cy + cz * cz;
+    const real all = fmax(dot_lanes(w, w) * dot_lanes(t, t), (real)(1e-24f));
+    const real share = sqrt(across / all); // sine of the angle between wind and strand
+    return points(share * w.x, share * w.y, share * w.z);
+}
+
+// What crowded hair does to a node at p.
+static inline Points repulsion_at(global const float* gradient, Points p, constant StepInfo* info)
 {
     float px[WIDTH], py[WIDTH], pz[WIDTH], fx[WIDTH], fy[WIDTH], fz[WIDTH];
-    LANES_STORE(x, px);
-    LANES_STORE(y, py);
-    LANES_STORE(z, pz);
+    LANES_STORE(p.x, px);
+    LANES_STORE(p.y, py);
+    LANES_STORE(p.z, pz);
     for (int lane = 0; lane < WIDTH; ++lane)
     {
         float3 push = -info->repulsion * fetch_gradient(gradient, px[lane], py[lane], pz[lane], info);
@@ -40,9 +42,19 @@ static inline void add_repulsion(real* ax, real* ay, real* az, real x, real y, r
         fy[lane] = push.y;
         fz[lane] = push.z;
     }
-    *ax += LANES_LOAD(fx);
-    *ay += LANES_LOAD(fy);
-    *az += LANES_LOAD(fz);
+    return points(LANES_LOAD(fx), LANES_LOAD(fy), LANES_LOAD(fz));
+}
+
+// The strands of the lanes from `strand` on have a node at p.
+static inline void add_density_lanes(global int* density, Points p, int strand, constant StepInfo* info)
+{
+    float px[WIDTH], py[WIDTH], pz[WIDTH];
+    LANES_STORE(p.x, px);
+    LANES_STORE(p.y, py);
+    LANES_STORE(p.z, pz);
+    for (int lane = 0; lane < WIDTH; ++lane)
+        if (strand + lane < info->guides)
+            add_density(density, px[lane], py[lane], pz[lane], info);
 }
 
 #endif

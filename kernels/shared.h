@@ -52,29 +52,51 @@ typedef struct StepInfo
     float4 gust_origin; // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against
                         // the wind
     float4 grid_corner; // lowest corner of the grid, m; w: side of a voxel, m
-    float4 sweep;    // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
-                     // per fixed-point unit of density (1/m)
-    float substep;   // duration, s
-    float drag_keep; // exp(-drag h)
-    float drag_gain; // integral of exp(-drag t) over the substep, s
-    float gravity;   // m/s^2, along y
-    float stretch;   // of a sweep, eq. 5.5
-    float relax;     // over-relaxation factor of all sweeps but the last
-    float bend;      // of a sweep, eq. 5.5, before attenuation
-    float clearance; // that drawn strands keep from colliders, m
-    float parting;   // m that guides may part before they are no longer mixed
-    float repulsion; // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
-    int guides;      // simulated strands, without those that fill the last block
-    int drawn_multi; // drawn strands mixed of three guides; they come first
-    int drawn;       // all drawn strands
+    float4 sweep;     // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
+                      // per fixed-point unit of density (1/m)
+    float substep;    // duration, s
+    float drag_keep;  // exp(-drag h)
+    float drag_gain;  // integral of exp(-drag t) over the substep, s
+    float gravity;    // m/s^2, along y
+    float stretch;    // of a sweep, eq. 5.5
+    float relax;      // over-relaxation factor of all sweeps but the last
+    float bend;       // of a sweep, eq. 5.5, before attenuation
+    float clearance;  // that drawn strands keep from colliders, m
+    float parting;    // m that guides may part before they are no longer mixed
+    float repulsion;  // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
+    float bend_droop; // bending stiffness over mass times the segment's length, m/s^2, from the droop number
+    float bend_modulus; // the same times its fourth power, m^4/s^2, from the modulus; one of the two is zero
+    float tip_mass;     // of the last node against the others
+    float acceleration; // that strands may hang in: gravity, wind and the roots' own, at most, m/s^2
+    float push_out;     // m/s at which hair that starts inside a body is let out
+    int guides;         // simulated strands, without those that fill the last block
+    int drawn_multi;    // drawn strands mixed of three guides; they come first
+    int drawn;          // all drawn strands
     int colliders;
-    int teleport;     // the head has just jumped: strands are carried along rigidly
-    int last_substep; // of its step: then the nodes are added to the density
-    int body_density; // of what no light passes, in fixed-point units
-    int sweep_axis;   // 0, 1, 2: main axis of the light's sweep
-    int sweep_from;   // first slice of the sweep
-    int sweep_sign;   // -1 or +1: from slice to slice
+    int head_colliders; // that are fixed to the head; they come first
+    int teleport;       // the head has just jumped: strands are carried along rigidly
+    int last_substep;   // of its step: then the nodes are added to the density
+    int body_density;   // of what no light passes, in fixed-point units
+    int sweep_axis;     // 0, 1, 2: main axis of the light's sweep
+    int sweep_from;     // first slice of the sweep
+    int sweep_sign;     // -1 or +1: from slice to slice
 } StepInfo;
+
+// The head on its way through one step, in sixteenths, for the direct solver, which takes 1, 2, 4, 8 or 16 substeps;
+// and what drag leaves of the velocity, for each pace before and now.
+#define MOST_SUBSTEPS 16
+#define PACES 5
+typedef struct StepPath
+{
+    float4
+        row[3 * (MOST_SUBSTEPS + 1)]; // rows of its rotation; w: its origin along that axis, against the step's begin
+    float4 drag[(PACES + 1) * PACES]; // [0: at the start; else 1 + halvings before][halvings now]: keep, gain (s)
+} StepPath;
+
+// Why a strand was reset.
+#define FAULT_POSITION 1 // a position was not finite before the step
+#define FAULT_VELOCITY 2 // a velocity or a tension was not
+#define FAULT_FORCES 3   // they were, but not after it: its forces
 
 // One node adds this much to the density, shared out over eight voxels: fixed point, so that the order of the additions
 // does not matter and equal input gives equal bytes.

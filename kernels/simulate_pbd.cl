@@ -66,18 +66,21 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         real vy = LANES_LOAD(velocity + first + (i * 3 + 1) * LANES) - info->head_velocity.y;
         real vz = LANES_LOAD(velocity + first + (i * 3 + 2) * LANES) - info->head_velocity.z;
         turn(&vx, &vy, &vz, info);
-        real ax = (real)(0.0f), ay = (real)(info->gravity), az = (real)(0.0f);
+        Points f = points((real)(0.0f), (real)(info->gravity), (real)(0.0f));
+        const Points at = points(ox[i], oy[i], oz[i]);
 #ifdef WIND
         const int next = min(i + 1, NODES - 1);
-        add_wind(&ax, &ay, &az, ox[i], oy[i], oz[i], ox[next] - ox[i - 1], oy[next] - oy[i - 1], oz[next] - oz[i - 1],
-                 info);
+        const Points pushed =
+            across_wind(wind_at(at, info), points(ox[next] - ox[i - 1], oy[next] - oy[i - 1], oz[next] - oz[i - 1]));
+        f = points(f.x + pushed.x, f.y + pushed.y, f.z + pushed.z);
 #endif
 #ifdef REPULSION
-        add_repulsion(&ax, &ay, &az, ox[i], oy[i], oz[i], gradient, info);
+        const Points push = repulsion_at(gradient, at, info);
+        f = points(f.x + push.x, f.y + push.y, f.z + push.z);
 #endif
-        vx = (vx + info->head_velocity.x) * info->drag_keep + ax * info->drag_gain;
-        vy = (vy + info->head_velocity.y) * info->drag_keep + ay * info->drag_gain;
-        vz = (vz + info->head_velocity.z) * info->drag_keep + az * info->drag_gain;
+        vx = (vx + info->head_velocity.x) * info->drag_keep + f.x * info->drag_gain;
+        vy = (vy + info->head_velocity.y) * info->drag_keep + f.y * info->drag_gain;
+        vz = (vz + info->head_velocity.z) * info->drag_keep + f.z * info->drag_gain;
         x[i] = ox[i] + h * vx - info->origin_move.x;
         y[i] = oy[i] + h * vy - info->origin_move.y;
         z[i] = oz[i] + h * vz - info->origin_move.z;
@@ -163,14 +166,6 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 #ifdef DENSITY
     if (info->last_substep)
         for (int i = 1; i < NODES; ++i)
-        {
-            float px[WIDTH], py[WIDTH], pz[WIDTH];
-            LANES_STORE(x[i], px);
-            LANES_STORE(y[i], py);
-            LANES_STORE(z[i], pz);
-            for (int lane = 0; lane < WIDTH; ++lane)
-                if (strand + lane < info->guides)
-                    add_density(density, px[lane], py[lane], pz[lane], info);
-        }
+            add_density_lanes(density, points(x[i], y[i], z[i]), strand, info);
 #endif
 }

@@ -17,6 +17,8 @@ struct Groom
     std::vector<float> root_position;  // [block][axis][lane], node 1, in the head's frame, m
     std::vector<float> root_direction; // [block][axis][lane], from node 0 to node 1, unit length, in the head's frame
     std::vector<float> segment_length; // [block][lane], m
+    std::vector<float> rest_position;  // [block][node][axis][lane], in the head's frame, m; empty: straight
+    float tip_mass = 0.5f;             // of the last node: it stands for half a segment
     std::vector<DrawnStrand> drawn;    // mixed ones first
     int drawn_multi = 0;
     float longest = 0.0f;   // strand, m

@@ -110,16 +110,19 @@ void Simulation::step(const Pose& hand)
     // A leap of the hand is one, however the step is cut: all of it comes in the first substep.
     const double angle = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(hand_.turn, hand.turn))));
     const bool leap = glm::distance(hand_.origin, hand.origin) > 0.25 || angle > std::numbers::pi / 2.0;
+    const auto head_at = [&, from = hand_](double share)
+    {
+        Pose pose;
+        pose.origin = glm::mix(from.origin, hand.origin, leap ? 1.0 : share);
+        pose.turn = glm::slerp(from.turn, hand.turn, leap ? 1.0 : share);
+        return motion_ ? pose * pose_at(*motion_, motion_time_ + h * share) : pose;
+    };
     std::vector<Substep> all;
     for (int i = 1; i <= substeps; ++i)
     {
         const double share = double(i) / substeps;
-        Pose pose;
-        pose.origin = glm::mix(hand_.origin, hand.origin, leap ? 1.0 : share);
-        pose.turn = glm::slerp(hand_.turn, hand.turn, leap ? 1.0 : share);
-        if (motion_)
-            pose = pose * pose_at(*motion_, motion_time_ + h * share);
-        all.push_back({pose, time_ + h * share, float(h / substeps)});
+        const auto way = [&head_at, i, substeps](double within) { return head_at((i - 1 + within) / substeps); };
+        all.push_back({head_at(share), time_ + h * share, float(h / substeps), way});
     }
     solver_->step(all);
     hand_ = hand;

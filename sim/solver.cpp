@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 namespace coif
 {
@@ -28,6 +29,8 @@ Solver::Solver(const Device& device, const HairParams& params, const Groom& groo
     buffers_["params"] = allocate(device, sizeof(HairParams), "the parameters");
     buffers_["info"] = allocate(device, sizeof(StepInfo), "the step");
     buffers_["colliders"] = allocate(device, sizeof(float4), "the colliders");
+    buffers_["bodies"] = allocate(device, 2 * sizeof(float4), "the colliders");
+    buffers_["path"] = allocate(device, sizeof(StepPath), "the step");
     head_ = head;
     set_groom(groom);
     set_params(params);
@@ -60,7 +63,16 @@ void Solver::set_params(const HairParams& params)
         device_.queue.enqueueFillBuffer(fresh["gradient"], 0, 0, voxels * 3 * sizeof(float));
         buffers_ = fresh;
     }
+    // What the rest shape hangs on besides the groom.
+    const auto shaping = [](const HairParams& p)
+    {
+        return std::tuple(p.strand_spacing, p.bending_droop, p.bending_modulus, p.bending_diameter,
+                          p.bending_attenuation, p.forces_gravity);
+    };
+    const bool reshaped = shaping(wanted) != shaping(params_);
     params_ = wanted;
+    if (reshaped)
+        set_rest_shape();
     device_.queue.enqueueWriteBuffer(buffer("params"), CL_TRUE, 0, sizeof params_, &params_);
 }
 
@@ -71,8 +83,19 @@ void Solver::set_groom(const Groom& groom)
     const size_t strands = size_t(groom.blocks) * LANES, values = strands * size_t(groom.nodes) * 3;
     const size_t drawn_nodes = groom.drawn.size() * size_t(groom.nodes);
     Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
+    const size_t blocks = size_t(groom.blocks);
     if (!same)
     {
+        fresh["rest_position"] = allocate(device_, values * sizeof(float), "the rest shape");
+        fresh["rest_bend"] = allocate(device_, values * sizeof(float), "the rest shape");
+        fresh["root_normal"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
+        fresh["multiplier"] = allocate(device_, strands * size_t(groom.nodes) * sizeof(float), "the guides");
+        for (const char* name : {"tension", "tension_next"})
+            fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
+        for (const char* name : {"pace", "pace_next"})
+            fresh[name] = allocate(device_, blocks * sizeof(int), "the guides");
+        fresh["faults"] = allocate(device_, strands * sizeof(int), "the guides");
+        device_.queue.enqueueFillBuffer(fresh["faults"], 0, 0, strands * sizeof(int));
         fresh["root_position"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
         fresh["root_direction"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
         fresh["segment_length"] = allocate(device_, strands * sizeof(float), "the roots");
@@ -93,6 +116,7 @@ void Solver::set_groom(const Groom& groom)
     write(device_, buffer("root_direction"), groom.root_direction);
     write(device_, buffer("segment_length"), groom.segment_length);
     write(device_, buffer("strands"), groom.drawn);
+    set_rest_shape();
     if (!same)
         reset(head_);
 }
@@ -101,7 +125,17 @@ void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
     if (colliders.size() > colliders_.size())
         buffers_["colliders"] = allocate(device_, colliders.size() * sizeof(float4), "the colliders");
+    if (colliders.size() > colliders_.size())
+        buffers_["bodies"] = allocate(device_, 2 * colliders.size() * sizeof(float4), "the colliders");
     colliders_ = colliders;
+}
+
+void Solver::set_rest_shape()
+{
+    rest_ = make_rest_shape(params_, groom_);
+    write(device_, buffer("rest_position"), rest_.position);
+    write(device_, buffer("rest_bend"), rest_.bend);
+    write(device_, buffer("root_normal"), rest_.normal);
 }
 
 std::vector<float4> Solver::placed_colliders() const
@@ -119,26 +153,22 @@ void Solver::reset(const Pose& head)
 {
     head_ = head;
     head_velocity_ = glm::dvec3(0.0);
-    std::vector<float> position(size_t(groom_.blocks) * LANES * size_t(groom_.nodes) * 3);
+    std::vector<float> position = rest_.position;
     const std::vector<float> velocity(position.size(), 0.0f);
     for (int s = 0; s < groom_.blocks * LANES; ++s)
-    {
-        glm::dvec3 root, direction;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            root[axis] = groom_.root_position[size_t(strand_value(s, 0, axis, 1))];
-            direction[axis] = groom_.root_direction[size_t(strand_value(s, 0, axis, 1))];
-        }
-        const double rest = double(groom_.segment_length[size_t(s)]) * params_.strand_spacing;
         for (int k = 0; k < groom_.nodes; ++k)
         {
-            const glm::dvec3 p = head.turn * (root + direction * (rest * (k - 1)));
+            float* at = &position[size_t(strand_value(s, k, 0, groom_.nodes))];
+            const glm::dvec3 p = head.turn * glm::dvec3(at[0], at[LANES], at[2 * LANES]);
             for (int axis = 0; axis < 3; ++axis)
-                position[size_t(strand_value(s, k, axis, groom_.nodes))] = float(p[axis]);
+                at[axis * LANES] = float(p[axis]);
         }
-    }
     write(device_, buffer("position"), position);
     write(device_, buffer("velocity"), velocity);
+    write(device_, buffer("multiplier"), rest_.multiplier);
+    const size_t strands = size_t(groom_.blocks) * LANES;
+    device_.queue.enqueueFillBuffer(buffer("tension"), 0.0f, 0, strands * sizeof(float));
+    device_.queue.enqueueFillBuffer(buffer("pace"), 0, 0, size_t(groom_.blocks) * sizeof(int));
 }
 
 Kernel& Solver::kernel(const std::string& file, const std::string& extra)
@@ -178,21 +208,39 @@ void Solver::launch_strands(const std::string& pass, const std::string& extra, s
     launch(pass, extra, (items + group - 1) / group * group, group);
 }
 
+// The queue reads what it is given later: kept until take_times() has waited for it.
+void Solver::send(const std::string& name, const void* data, size_t bytes)
+{
+    if (bytes == 0)
+        return;
+    const char* first = static_cast<const char*>(data);
+    in_flight_.emplace_back(first, first + bytes);
+    device_.queue.enqueueWriteBuffer(buffer(name), CL_FALSE, 0, bytes, in_flight_.back().data());
+}
+
 void Solver::upload(const StepInfo& info)
 {
     info_ = info;
-    // The queue reads what it is given later: kept until take_times() has waited for it.
-    const auto send = [&](const std::string& name, const void* data, size_t bytes)
-    {
-        if (bytes == 0)
-            return;
-        const char* first = static_cast<const char*>(data);
-        in_flight_.emplace_back(first, first + bytes);
-        device_.queue.enqueueWriteBuffer(buffer(name), CL_FALSE, 0, bytes, in_flight_.back().data());
-    };
     send("info", &info, sizeof info);
     const std::vector<float4> placed = placed_colliders();
     send("colliders", placed.data(), placed.size() * sizeof(float4));
+}
+
+// Bodies as kernels/bodies.h wants them: the head's own first, in its frame; the others against the path's origin.
+void Solver::upload_direct(const StepPath& path, const Pose& before, bool teleport)
+{
+    send("path", &path, sizeof path);
+    std::vector<float4> bodies;
+    for (const bool on_head : {true, false})
+        for (const Collider& c : colliders_)
+            if (c.on_head == on_head)
+            {
+                const glm::dvec3 at =
+                    on_head ? glm::dvec3(c.center) : glm::dvec3(c.center) - (teleport ? head_.origin : before.origin);
+                bodies.push_back(F4(float(at.x), float(at.y), float(at.z), c.radius));
+                bodies.push_back(F4(0.0f, 0.0f, 0.0f, 0.0f));
+            }
+    send("bodies", bodies.data(), bodies.size() * sizeof(float4));
 }
 
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
@@ -202,10 +250,28 @@ void Solver::simulate(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     if (info.last_substep && density)
         launch("clear_density", "", grid_voxels(params_));
+    if (params_.solver_kind == 0)
+        return simulate_direct(info);
     launch_strands("simulate_pbd",
                    fmt::format("{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
                                density ? "-D DENSITY " : ""),
                    size_t(groom_.blocks) * LANES);
+}
+
+void Solver::simulate_direct(const StepInfo& info)
+{
+    const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
+    // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
+    const double links = groom_.nodes - 2;
+    const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
+    launch_strands("simulate_direct",
+                   fmt::format("{}{}{}{}{}{}", bending ? "-D BENDING " : "",
+                               bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
+                               repels ? "-D REPULSION " : "", colliders_.empty() ? "" : "-D CONTACT ",
+                               density ? "-D DENSITY " : ""),
+                   size_t(groom_.blocks) * LANES);
+    std::swap(buffers_["tension"], buffers_["tension_next"]);
+    std::swap(buffers_["pace"], buffers_["pace_next"]);
 }
 
 void Solver::step(const std::vector<Substep>& wanted)
@@ -219,14 +285,22 @@ void Solver::step(const std::vector<Substep>& wanted)
     for (size_t i = 0; i < substeps.size(); ++i)
     {
         const Substep& now = substeps[i];
-        const StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
-                                             i + 1 == substeps.size());
+        StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
+                                       i + 1 == substeps.size());
         if (info.teleport)
             jumped_ += now.head.origin - head_.origin;
         else
             head_velocity_ = (now.head.origin - head_.origin) / double(now.seconds);
-        head_ = now.head;
+        const Pose before = std::exchange(head_, now.head);
         time_ = now.time;
+        if (params_.solver_kind == 0)
+        {
+            const StepPath path = make_step_path(params_, before, now, info.teleport, seconds_before_);
+            const long on_head = std::count_if(colliders_.begin(), colliders_.end(), [](auto& c) { return c.on_head; });
+            set_direct(info, path, groom_, int(on_head));
+            upload_direct(path, before, info.teleport);
+        }
+        seconds_before_ = now.seconds;
         upload(info);
         simulate(info);
     }
@@ -287,6 +361,7 @@ Mapped Solver::optical_depth() const
     return Mapped(device_, buffer("depth"), has_shadow() ? grid_voxels(params_) * sizeof(float) : 0);
 }
 
+std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
 
 PassTimes Solver::take_times()

@@ -3,7 +3,9 @@
 #include "sim/groom.h"
 #include "sim/motion.h"
 #include "sim/params.h"
+#include "sim/rest_shape.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,6 +20,7 @@ struct Substep
     Pose head;
     double time = 0.0; // s, at its end
     float seconds = 1.0f / 60.0f;
+    std::function<Pose(double)> way = {}; // its poses between, by the share of the substep; none: in a straight line
 };
 
 // Milliseconds that the device spent in a pass since the last take_times().
@@ -51,6 +54,7 @@ class Solver
     Mapped drawn_frames() const;     // float4 (normal, length from the root), [strand][node]
     Mapped optical_depth() const;    // float, [slice][ray][ray] of light_grid.h
     std::vector<int> resets() const; // of each guide since the start
+    std::vector<int> faults() const; // of each guide: why it was last reset, FAULT_* of kernels/shared.h
     bool has_shadow() const;
 
     const Groom& groom() const { return groom_; }
@@ -68,14 +72,20 @@ class Solver
     Kernel& kernel(const std::string& file, const std::string& extra);
     void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
+    void set_rest_shape();
+    void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
+    void simulate_direct(const StepInfo& info);
     void upload(const StepInfo& info);
+    void upload_direct(const StepPath& path, const Pose& before, bool teleport);
 
     const Device& device_;
     HairParams params_; // as the device reads them
     Groom groom_;
     Pose head_;
+    RestShape rest_;
     double time_ = 0.0;
+    double seconds_before_ = 1.0 / 60.0; // of the last substep
     glm::dvec3 head_velocity_{0.0}, jumped_{0.0};
     std::vector<Collider> colliders_;
     StepInfo info_ = {};
@@ -91,5 +101,12 @@ class Solver
 // over-relaxation as Young 1950, optical depth as Bertails et al. 2005. `params` as the device reads them.
 StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
                         const Substep& now, int colliders, bool last);
+
+// The head on its way through a substep, and what drag leaves of the velocities.
+StepPath make_step_path(const HairParams& params, const Pose& before, const Substep& now, bool teleport,
+                        double seconds_before);
+
+// What of StepInfo only the direct solver reads and only the path tells: the acceleration that strands will hang in.
+void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, int head_colliders);
 
 } // namespace coif

@@ -2,6 +2,7 @@
 #include "sim/solver.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -17,6 +18,9 @@ static constexpr double kTeleportAngle = std::numbers::pi / 2.0; // rad in a sub
 static constexpr double kGustCell = 0.15, kGustPeriod = 256.0;   // m; cells: kernels/turbulence.h
 static constexpr double kGustDrift = 0.3;                        // s: gusts travel as fast as wind drives in this time
 static constexpr float kClearance = 0.001f;                      // m that hair keeps from colliders
+static constexpr float kPushOut = 0.5f;                          // m/s at which hair that starts inside leaves
+static constexpr double kGravity = 9.81;                         // m/s^2
+static constexpr double kFibreDensity = 1300.0;                  // kg/m^3
 
 static float4 row(const glm::dmat3& m, int i) { return F4(float(m[0][i]), float(m[1][i]), float(m[2][i]), 0.0f); }
 static float4 vector4(glm::dvec3 v, double w) { return F4(float(v.x), float(v.y), float(v.z), float(w)); }
@@ -84,13 +88,20 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.substep = float(h);
     info.drag_keep = float(std::exp(-b * h));
     info.drag_gain = float(b * h > 1e-6 ? -std::expm1(-b * h) / b : h);
-    info.gravity = -9.81f * params.forces_gravity;
+    info.gravity = float(-kGravity * params.forces_gravity);
     const double sweeps = params.solver_iterations;
     info.stretch = float(1.0 - std::pow(1.0 - double(params.solver_stretching), 1.0 / sweeps)); // eq. 5.5
     info.bend = float(1.0 - std::pow(1.0 - double(params.solver_bending), 1.0 / sweeps));
     const double links = groom.nodes - 2;
     info.relax =
         params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;
+    // Bending of the direct solver, kernels/direct.h: stiffness over mass k = E I / (rho S l^4). The droop number is
+    // Gamma = rho g S L^3 / (E I), 4 rho g L^3 / (E r^2) for a round fibre; it is said for 1 g whatever gravity is.
+    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
+    info.bend_droop = modulus > 0.0 ? 0.0f : float(kGravity * links * links * links / params.bending_droop);
+    info.bend_modulus = float(modulus * radius * radius / (4.0 * kFibreDensity));
+    info.tip_mass = groom.tip_mass;
+    info.push_out = kPushOut;
     info.clearance = kClearance;
     info.parting = 0.15f * groom.extent; // beyond some spacings of the guides, still small against the head
     // Repulsion is the relative change of the density over a tenth of the scalp's extent. The density it is relative to
@@ -107,6 +118,81 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.teleport = teleport;
     info.last_substep = last;
     return info;
+}
+
+// Mean velocity over a substep of z = b h under drag b and force f, against that of the substep before (z_before):
+// V' = keep V + (1 - keep) f / b with keep = exp(-z_before) phi(z) / phi(z_before), phi(z) = (1 - exp(-z)) / z, from
+// the exact motion v = f / b + c exp(-b t). Exact for constant f, at changes of h and from the start (z_before = 0)
+// too.
+static float4 drag_between(double b, double h_before, double h)
+{
+    const auto log_phi = [](double z) // of phi, without loss for small z
+    { return z < 1e-3 ? -0.5 * z + z * z / 24.0 : std::log(-std::expm1(-z) / z); };
+    const double before = b * h_before, now = b * h;
+    const double keep_log = -before + log_phi(now) - log_phi(before);
+    const double gain = b > 1e-9 ? -std::expm1(keep_log) / b : 0.5 * (h_before + h);
+    return F4(float(std::exp(keep_log)), float(gain), 0.0f, 0.0f);
+}
+
+StepPath make_step_path(const HairParams& params, const Pose& before, const Substep& now, bool teleport,
+                        double seconds_before)
+{
+    StepPath path = {};
+    for (int i = 0; i <= MOST_SUBSTEPS; ++i)
+    {
+        const double share = double(i) / MOST_SUBSTEPS;
+        Pose pose = now.head;
+        if (!teleport && i < MOST_SUBSTEPS)
+            pose = now.way ? now.way(share)
+                           : Pose{glm::mix(before.origin, now.head.origin, share),
+                                  glm::slerp(before.turn, now.head.turn, share),
+                                  {}};
+        const glm::dmat3 turn = glm::mat3_cast(pose.turn);
+        const glm::dvec3 origin = teleport ? glm::dvec3(0.0) : pose.origin - before.origin;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            path.row[3 * i + axis] = row(turn, axis);
+            path.row[3 * i + axis].w = float(origin[axis]);
+        }
+    }
+    for (int from = 0; from <= PACES; ++from)
+        for (int to = 0; to < PACES; ++to)
+            path.drag[PACES * from + to] =
+                drag_between(params.forces_drag, from ? seconds_before / double(1 << (from - 1)) : 0.0,
+                             double(now.seconds) / double(1 << to));
+    return path;
+}
+
+// What a root may be accelerated by on this path, at most: second differences over quarters of the step, so that one
+// grid of times serves all substeps. `reach` is the farthest root from the head's origin.
+static double root_acceleration(const StepPath& path, double seconds, double reach)
+{
+    const double quarter = seconds / 4.0;
+    double most = 0.0;
+    for (int i = MOST_SUBSTEPS / 4; i < MOST_SUBSTEPS; i += MOST_SUBSTEPS / 4)
+    {
+        double origin2 = 0.0, turn2 = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const float4 &a = path.row[3 * (i - MOST_SUBSTEPS / 4) + axis], &b = path.row[3 * i + axis],
+                         &c = path.row[3 * (i + MOST_SUBSTEPS / 4) + axis];
+            const auto second = [](float l, float m, float r) { return double(l) - 2.0 * double(m) + double(r); };
+            origin2 += std::pow(second(a.w, b.w, c.w), 2);
+            turn2 += std::pow(second(a.x, b.x, c.x), 2) + std::pow(second(a.y, b.y, c.y), 2) +
+                     std::pow(second(a.z, b.z, c.z), 2);
+        }
+        most = std::max(most, (std::sqrt(origin2) + reach * std::sqrt(turn2)) / (quarter * quarter));
+    }
+    return most;
+}
+
+void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, int head_colliders)
+{
+    info.head_colliders = head_colliders;
+    const double reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
+    info.acceleration =
+        float(std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w)) +
+              root_acceleration(path, info.substep, reach));
 }
 
 } // namespace coif

@@ -1,0 +1,251 @@
+// One step of the guides by direct solves: roots follow the head, forces, implicit bending, lengths along start-of-step
+// directions, contact. Cut into 1 to 16 substeps, as many as the tension of the block's strands asks for.
+//
+//   V  <- keep V + gain f                 mean velocity of a substep; drag exactly (sim/step_info.cpp)
+//   (M + h gain K) move = h M V + ...     bending implicitly, the last substep's multipliers as a force: without them
+//                                         bending and lengths, one after the other, leave a droop that hangs on h
+//   |a + move| = l, corrections along a   second order, no numerical damping
+//
+// What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
+// Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT and DENSITY
+// are build options.
+#include "bodies.h"
+#include "direct.h"
+#include "forces.h"
+
+#define MOST_NEWTON 3
+#define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
+
+// The number of halvings of the step that the tension in this block asks for: h w_max <= courant with w_max^2 = 4 times
+// the largest multiplier (transverse waves of a chain). More at once, fewer only when well below: order two lives from
+// equal substeps.
+static inline int halvings(global const float* tension, global const float* segment_length, int block, int before,
+                           constant HairParams* params, constant StepInfo* info)
+{
+    float most = 0.0f, shortest = segment_length[block * LANES];
+    for (int lane = 0; lane < LANES; ++lane)
+    {
+        most = fmax(most, tension[block * LANES + lane]);
+        shortest = fmin(shortest, segment_length[block * LANES + lane]);
+    }
+    // Hanging from its root in what accelerates it, it will be at least as tense as this.
+    const float length_least = fmax(shortest * params->strand_spacing, 1e-9f);
+    most = fmax(most, (float)(NODES - 2) * info->acceleration / length_least);
+    const float need = info->substep * 2.0f * sqrt(fmin(most, 1e30f)) / params->solver_courant;
+    int up = 0, down = 0;
+    while (up < 4 && (float)(1 << up) < fmax(need, (float)params->solver_substeps))
+        ++up;
+    while (down < 4 && (float)(1 << down) < fmax(1.4f * need, (float)params->solver_substeps))
+        ++down;
+    return max(up, min(before, down));
+}
+
+// The strands in `which` to their rest shape at this pose of the head, moving with it.
+static inline void start_again(whole which, HeadPose head, global const float* rest_position, Points velocity, Points* x,
+                               Points* v, real* pull)
+{
+    for (int i = 0; i < NODES; ++i)
+    {
+        const Points at = out_of_head(head, load_lanes(rest_position + i * 3 * LANES));
+        x[i] = select_points(x[i], at, which);
+        v[i] = select_points(v[i], velocity, which);
+        pull[i] = select(pull[i], (real)(0.0f), which);
+    }
+}
+
+kernel void simulate_direct(global float* position, global float* velocity, global float* multiplier,
+                            global const float* tension, global float* tension_next, global const int* pace,
+                            global int* pace_next, global const float* root_position,
+                            global const float* root_direction, global const float* segment_length,
+                            global const float* rest_position, global const float* rest_bend,
+                            global const float* root_normal, global const float* gradient, global int* density,
+                            global int* resets, global int* faults, constant float4* bodies, constant StepPath* path,
+                            constant HairParams* params, constant StepInfo* info)
+{
+    const int strand = get_global_id(0) * WIDTH; // of the first lane
+    if (strand >= (info->guides + LANES - 1) / LANES * LANES)
+        return;
+    const int block = strand / LANES;
+    const int first = strand_value(strand, 0, 0, NODES), root = strand_value(strand, 0, 0, 1);
+    const int first_scalar = block * NODES * LANES + strand % LANES;
+    const real rest = fmax(LANES_LOAD(segment_length + strand) * params->strand_spacing, (real)(1e-9f));
+
+    // pace: 0 at the start, else 1 + halvings of the last step.
+    const int before = pace[block];
+    const int level = halvings(tension, segment_length, block, max(before - 1, 0), params, info);
+    const int substeps = 1 << level;
+    const float h = info->substep / (float)substeps;
+
+    const Points root_local = load_lanes(root_position + root), direction_local = load_lanes(root_direction + root);
+    const HeadPose begin = head_pose(path, 0), end = head_pose(path, MOST_SUBSTEPS);
+
+    // Where the strand was, carried along rigidly if the head has just jumped.
+    Points x[NODES], v[NODES], move[NODES], a[NODES];
+    real pull[NODES];
+    whole bad_position = (whole)(0), bad_motion = (whole)(0);
+    const Points head_velocity =
+        points((real)(info->head_velocity.x), (real)(info->head_velocity.y), (real)(info->head_velocity.z));
+    for (int i = 0; i < NODES; ++i)
+    {
+        x[i] = turn_by(info->turn_row0, info->turn_row1, info->turn_row2, load_lanes(position + first + i * 3 * LANES));
+        v[i] = minus(load_lanes(velocity + first + i * 3 * LANES), head_velocity);
+        v[i] = plus(turn_by(info->turn_row0, info->turn_row1, info->turn_row2, v[i]), head_velocity);
+        pull[i] = LANES_LOAD(multiplier + first_scalar + i * LANES);
+        bad_position |= !(fabs(x[i].x) + fabs(x[i].y) + fabs(x[i].z) < 1e6f);
+        bad_motion |= !(fabs(v[i].x) + fabs(v[i].y) + fabs(v[i].z) + fabs(pull[i]) < 1e30f);
+    }
+    // A strand that came in bad starts again from its rest shape; its neighbours do not notice.
+    const whole came_bad = bad_position | bad_motion;
+    if (any_lane(came_bad))
+        start_again(came_bad, begin, rest_position + first, head_velocity, x, v, pull);
+
+    const float tip_mass = info->tip_mass;
+#ifdef BENDING
+    // Stiffness over mass, 1/s^2: from the droop number, E I / (rho S) = g L^3 / Gamma, or from the modulus.
+    const real per_length = 1.0f / rest;
+    const real stiffness =
+        per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length);
+    float weight[NODES];
+    element_weights(params->bending_attenuation, weight);
+    Factor factor;
+    factor_bending(&factor, weight, stiffness * (h * path->drag[5 * (level + 1) + level].y), tip_mass);
+#endif
+#ifdef CONTACT
+    Bodies near;
+    bodies_near(&near, bodies, info, begin, end, x[1], rest * (float)NODES);
+    // Hair that starts inside a body is let out at a bounded speed.
+    real inside[NODES];
+    for (int i = 2; i < NODES; ++i)
+    {
+        Points away;
+        whole on_head;
+        inside[i] = fmax(-body_distance(&near, begin, x[i], &away, &on_head), (real)(0.0f));
+    }
+#endif
+#ifdef WIND
+    Points wind[NODES];
+    for (int i = 2; i < NODES; ++i)
+        wind[i] = wind_at(x[i], info);
+#endif
+#ifdef REPULSION
+    Points push[NODES];
+    for (int i = 2; i < NODES; ++i)
+        push[i] = repulsion_at(gradient, x[i], info);
+#endif
+
+    real tensest = (real)(0.0f);
+    for (int substep = 0; substep < substeps; ++substep)
+    {
+        const int sixteenths = MOST_SUBSTEPS >> level;
+        const HeadPose last = head_pose(path, substep * sixteenths), now = head_pose(path, (substep + 1) * sixteenths);
+        const float4 drag = path->drag[5 * (substep ? level + 1 : before) + level];
+        const float keep = drag.x, hg = h * drag.y;
+
+        // Nodes 0 and 1: the segment under the scalp.
+        const Points root_now = out_of_head(now, root_local);
+        const Points along = turn_by(now.row0, now.row1, now.row2, direction_local);
+        for (int i = 1; i < NODES; ++i)
+            a[i] = minus(x[i], x[i - 1]);
+        move[1] = minus(root_now, x[1]);
+        move[0] = minus(minus(root_now, times(rest, along)), x[0]);
+
+        for (int i = 2; i < NODES; ++i)
+        {
+            Points f = points((real)(0.0f), (real)(info->gravity), (real)(0.0f));
+#ifdef WIND
+            f = plus(f, across_wind(wind[i], i + 1 < NODES ? plus(a[i], a[i + 1]) : a[i]));
+#endif
+#ifdef REPULSION
+            f = plus(f, push[i]);
+#endif
+            const float mass = i + 1 < NODES ? 1.0f : tip_mass;
+            move[i] = times((real)(mass), plus(times((real)(h * keep), v[i]), times((real)(hg), f)));
+            move[i] = minus(move[i], times(hg * pull[i], a[i]));
+            if (i + 1 < NODES)
+                move[i] = plus(move[i], times(hg * pull[i + 1], a[i + 1]));
+        }
+#ifdef BENDING
+        add_bending(x, move, along, rest, hg * stiffness, weight
+#ifdef CURLED
+                    ,
+                    turn_by(now.row0, now.row1, now.row2, load_lanes(root_normal + root)), rest_bend + first
+#endif
+        );
+        solve_bending(&factor, move);
+#else
+        move[NODES - 1] = times((real)(1.0f / tip_mass), move[NODES - 1]);
+#endif
+
+#ifdef CONTACT
+        for (int i = 2; i < NODES; ++i)
+        {
+            inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
+            push_and_rub(&near, last, now, x[i], &move[i], inside[i], params->forces_friction);
+        }
+#endif
+
+        whole open = (whole)(-1);
+        for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
+        {
+            keep_lengths_direct(a, move, pull, rest, (real)(hg), tip_mass, open);
+            open &= length_residual(a, move, rest) >= LENGTH_TOLERANCE;
+        }
+        const whole failed = open & (length_residual(a, move, rest) >= 4.0f * LENGTH_TOLERANCE);
+        if (any_lane(failed))
+            rescue(x, move, pull, rest, failed);
+
+#ifdef CONTACT
+        Points walked[NODES];
+        for (int i = 1; i < NODES; ++i)
+            walked[i] = plus(x[i], move[i]);
+        const whole touched = walk_out(&near, now, walked, rest, inside, (whole)(-1));
+        if (any_lane(touched))
+            for (int i = 2; i < NODES; ++i)
+                move[i] = select_points(move[i], minus(walked[i], x[i]), touched);
+#endif
+
+        const float per_second = 1.0f / h;
+        for (int i = 0; i < NODES; ++i)
+        {
+            v[i] = times((real)(per_second), move[i]);
+            x[i] = plus(x[i], move[i]);
+            tensest = fmax(tensest, fabs(pull[i]));
+        }
+    }
+
+    whole bad = (whole)(0);
+    for (int i = 2; i < NODES; ++i)
+        bad |= !(fabs(x[i].x) + fabs(x[i].y) + fabs(x[i].z) < 1e6f);
+    if (any_lane(bad))
+        start_again(bad, end, rest_position + first, head_velocity, x, v, pull);
+
+    for (int i = 0; i < NODES; ++i)
+    {
+        x[i] = points(x[i].x - info->origin_move.x, x[i].y - info->origin_move.y, x[i].z - info->origin_move.z);
+        store_lanes(x[i], position + first + i * 3 * LANES);
+        store_lanes(v[i], velocity + first + i * 3 * LANES);
+        LANES_STORE(pull[i], multiplier + first_scalar + i * LANES);
+    }
+    LANES_STORE(select(tensest, (real)(0.0f), bad | !(tensest < 1e30f)), tension_next + strand);
+    if (strand % LANES == 0)
+        pace_next[block] = 1 + level;
+
+    int position_lanes[WIDTH], motion_lanes[WIDTH], bad_lanes[WIDTH];
+    LANES_STORE(bad_position, position_lanes);
+    LANES_STORE(bad_motion, motion_lanes);
+    LANES_STORE(bad, bad_lanes);
+    for (int lane = 0; lane < WIDTH; ++lane)
+        if (strand + lane < info->guides && (position_lanes[lane] || motion_lanes[lane] || bad_lanes[lane]))
+        {
+            atomic_inc(&resets[strand + lane]);
+            faults[strand + lane] = position_lanes[lane] ? FAULT_POSITION
+                                    : motion_lanes[lane] ? FAULT_VELOCITY
+                                                         : FAULT_FORCES;
+        }
+
+#ifdef DENSITY
+    if (info->last_substep)
+        for (int i = 1; i < NODES; ++i)
+            add_density_lanes(density, x[i], strand, info);
+#endif
+}
