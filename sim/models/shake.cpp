@@ -5,7 +5,7 @@
 // inextensible hair strand simulation. 2013.
 //
 // Nothing guards it here: where a link turns by more than a right angle in a substep, or h is longer than the fastest
-// wave across the strand allows (2 / w_max), it ends in what is no number. With many substeps it is the reference for
+// wave across the strand allows (2 / w_max), the links fly apart. With many substeps it is the reference for
 // scenes that have none.
 //
 // Bending is implicit, of second differences, whose matrix is constant: (M + h g K) d = M h v - h g K x, where g is h
