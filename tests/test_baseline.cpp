@@ -126,13 +126,15 @@ TEST_P(BaselineKernel, does_what_its_twin_does)
     EXPECT_LT(worst, c.tolerance);
 }
 
+// With bending only a few frames: what presses outwards against lengths that hold buckles, and a strand about to buckle
+// makes four of each rounding error a frame.
 INSTANTIATE_TEST_SUITE_P(
     Cases, BaselineKernel,
     testing::Values(Case{"first_step", 5, 16, 1, 1, 1e-7, nullptr}, Case{"plain", 33, 16, 8, 20, 1e-5, nullptr},
                     Case{"odd_nodes", 7, 5, 4, 20, 1e-5, nullptr}, Case{"three_nodes", 3, 3, 4, 20, 1e-5, nullptr},
                     Case{"many_nodes", 3, 64, 4, 10, 1e-5, nullptr},
                     Case{"drag", 9, 16, 8, 20, 1e-5, [](BaselineSetup& s) { s.drag = 300.0f; }},
-                    Case{"bending", 9, 16, 8, 20, 1e-5,
+                    Case{"bending", 9, 16, 8, 4, 1e-6,
                          [](BaselineSetup& s)
                          {
                              s.bending = 0.6f;

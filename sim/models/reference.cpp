@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -101,6 +102,7 @@ Difference compare(const Frames& frames, const Frames& reference, double length)
     {
         if (f >= frames.size())
             return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        assert(frames[f].size() == reference[f].size());
         for (size_t i = 1; i < reference[f].size(); ++i, ++count)
         {
             const double distance = glm::distance(frames[f][i], reference[f][i]);

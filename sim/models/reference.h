@@ -33,7 +33,7 @@ struct Difference
     double rms, worst; // over nodes 1 and up and all frames but the first, in lengths of the strand
 };
 
-// Infinite where `frames` ends first.
+// Of as many nodes. Infinite where `frames` ends first.
 Difference compare(const Frames& frames, const Frames& reference, double length);
 
 // A strand clamped horizontally, with half a tip mass and enough drag to come to rest within some seconds (Romero et
