@@ -15,6 +15,8 @@ template <int BAND> class Banded
   public:
     explicit Banded(int size) : rows_(size) {}
 
+    void clear() { std::fill(rows_.begin(), rows_.end(), std::array<double, BAND + 1>{}); }
+
     // The entries of the lower triangle only: `column` <= `row` <= `column` + BAND.
     double& at(int row, int column) { return rows_[row][row - column]; }
 

@@ -47,6 +47,8 @@ Result run_mass_spring_implicit(const Scene& scene, double fps, double seconds, 
     const int links = strand.links;
     const double stiffness = spring_stiffness(strand);
     std::vector<glm::dvec3> to(links + 1);
+    Matrix matrix(3 * links);
+    std::vector<double> side(3 * links);
     const auto step = [&](double t, double h)
     {
         const Drag drag(scene.drag, h);
@@ -55,8 +57,8 @@ Result run_mass_spring_implicit(const Scene& scene, double fps, double seconds, 
             v[i] *= drag.keep;
         v[0] = (scene.root(t) - strand.x[0]) / h;
 
-        Matrix matrix(3 * links);
-        std::vector<double> side(3 * links);
+        matrix.clear();
+        std::fill(side.begin(), side.end(), 0.0);
         for (int i = 1; i <= links; ++i)
         {
             const double mass = i == links ? scene.tip_mass : 1.0;

@@ -38,7 +38,7 @@ struct Result
     std::vector<std::vector<glm::dvec3>> frames; // all nodes, frame after frame from time 0; ends where not finite
     double stretch = 0.0;                        // the worst of any link in any frame, shortening too; 0.01 is 1 %
     double ns = 0.0;                             // of one thread for a frame, the median
-    bool finite = true;
+    bool finite = true;                          // links that have flown apart may be finite still: see stretch
 };
 
 enum class Bending

@@ -22,6 +22,16 @@ namespace
 
 using Vectors = std::vector<glm::dvec3>;
 
+// The solves' unknowns, kept from substep to substep so that nothing is allocated in one.
+struct Work
+{
+    explicit Work(int links) : multipliers(links + 1), above(links + 1), step(links + 1), side(links) {}
+
+    std::vector<double> multipliers; // of links 1 and up: the last substep's, which bending starts from
+    std::vector<double> above, step; // the elimination's upper diagonal, and what a Newton step adds to multipliers
+    Vectors side;                    // of nodes 1 and up
+};
+
 // M + `impulse` K of nodes 1 to links.
 Banded<2> bending_matrix(const Strand& strand, double impulse)
 {
@@ -40,12 +50,12 @@ Banded<2> bending_matrix(const Strand& strand, double impulse)
     return matrix;
 }
 
-// Bends the prediction `to`. `links` are those at the start, `carried` their last multipliers.
-void bend(const Strand& strand, Banded<2>& matrix, double impulse, const Vectors& links,
-          const std::vector<double>& carried, Vectors& to)
+// Bends the prediction `to`. `links` are those at the start.
+void bend(const Strand& strand, Banded<2>& matrix, double impulse, const Vectors& links, Work& work, Vectors& to)
 {
     const int count = strand.links;
-    Vectors side(count); // of nodes 1 to links
+    Vectors& side = work.side;
+    const std::vector<double>& carried = work.multipliers;
     for (int i = 1; i <= count; ++i)
     {
         const double mass = i == count ? strand.scene.tip_mass : 1.0;
@@ -72,12 +82,13 @@ void bend(const Strand& strand, Banded<2>& matrix, double impulse, const Vectors
         to[i] = strand.x[i] + side[i - 1];
 }
 
-// One Newton step on |to[i] - to[i-1]|^2 = rest^2, moving nodes along `links`. Adds to `multipliers`.
-void keep_lengths(const Strand& strand, const Vectors& links, std::vector<double>& multipliers, Vectors& to)
+// One Newton step on |to[i] - to[i-1]|^2 = rest^2, moving nodes along `links`. Adds to the multipliers.
+void keep_lengths(const Strand& strand, const Vectors& links, Work& work, Vectors& to)
 {
     const int count = strand.links;
     const std::vector<double>& w = strand.w;
-    std::vector<double> above(count + 1), step(count + 1);
+    std::vector<double>& above = work.above;
+    std::vector<double>& step = work.step;
     for (int i = 1; i <= count; ++i)
     {
         const glm::dvec3 now = to[i] - to[i - 1];
@@ -90,7 +101,7 @@ void keep_lengths(const Strand& strand, const Vectors& links, std::vector<double
         step[i] -= above[i] * step[i + 1];
     for (int i = 1; i <= count; ++i)
     {
-        multipliers[i] += step[i];
+        work.multipliers[i] += step[i];
         to[i] -= w[i] * step[i] * links[i];
         to[i - 1] += w[i - 1] * step[i] * links[i];
     }
@@ -105,15 +116,15 @@ Result run_shake(const Scene& scene, double fps, double seconds, int substeps)
     const double substep = 1.0 / (fps * substeps), impulse = substep * Drag(scene.drag, substep).gain;
     Banded<2> matrix = bending_matrix(strand, impulse);
     Vectors to(count + 1), links(count + 1);
-    std::vector<double> multipliers(count + 1);
+    Work work(count);
     const auto step = [&](double t, double h)
     {
         for (int i = 1; i <= count; ++i)
             links[i] = strand.x[i] - strand.x[i - 1];
         predict(strand, t, h, to);
         if (strand.stiffness > 0.0)
-            bend(strand, matrix, impulse, links, multipliers, to);
-        keep_lengths(strand, links, multipliers, to);
+            bend(strand, matrix, impulse, links, work, to);
+        keep_lengths(strand, links, work, to);
         push_out(strand, to);
         arrive(strand, h, to);
     };
