@@ -9,14 +9,12 @@ namespace coif::study
 
 typedef struct BaselineSettings
 {
-    float4 scalp;              // its centre in the world at the end of the step, m
-    float duration;            // of the step, s
-    float drag_keep;           // exp(-drag h)
-    float push;                // gravity's, in the first step half: drag's integral times gravity, m/s along y
-    float stretching;          // of a sweep, eq. 5.5
-    float bending;             // of a sweep, eq. 5.5, before attenuation
-    float bending_attenuation; // exponent of eq. 5.6
-    float bending_scale;
+    float4 scalp;        // its centre in the world at the end of the step, m
+    float duration;      // of the step, s
+    float drag_keep;     // exp(-drag h)
+    float push;          // gravity's, in the first step half: drag's integral times gravity, m/s along y
+    float stretching;    // of a sweep, eq. 5.5
+    float bending_scale; // of the distances that bending keeps
     int iterations;
     int spheres;
 } BaselineSettings;

@@ -2,9 +2,9 @@
 // and one work-item a node, previous positions instead of velocities, and barriers between batches of constraints.
 //
 // The listing's mistakes are mended: the odd batch ends before the last node, segments below the scalp never move, equal
-// points have no direction, drag is exact for any strength, and NODES is a build option. The strengths per sweep come
-// from the host, which has them only once. Wind, turbulence, the forces between hairs and the density are left out:
-// what is measured is motion and constraints.
+// points have no direction, drag is exact for any strength, and NODES is a build option. The strengths per sweep and
+// node come from the host, which has them only once: the listing's powers would cost more than eight of its sweeps.
+// Wind, turbulence, the forces between hairs and the density are left out: what is measured is motion and constraints.
 #include "settings.h"
 
 // Moves `outer` and, by half then, `inner` towards a distance; an inner node below the scalp stays.
@@ -28,8 +28,8 @@ static float4 sphere_collision(float4 node, float4 center, float radius)
 }
 
 kernel __attribute__((reqd_work_group_size(NODES, 1, 1))) void
-simulate(global float4* position, global float4* previous, global const float4* root, constant float4* spheres,
-         constant BaselineSettings* settings)
+simulate(global float4* position, global float4* previous, global const float4* root, constant float* bending,
+         constant float4* spheres, constant BaselineSettings* settings)
 {
     local float4 nodes[NODES];
     const int node = get_local_id(0);
@@ -48,7 +48,7 @@ simulate(global float4* position, global float4* previous, global const float4* 
         nodes[node] = here + settings->drag_keep * (here - previous[at]) +
                       (float4)(0.0f, settings->duration * settings->push, 0.0f, 0.0f);
 
-    const float bending = node > 1 ? settings->bending / pow((float)(node - 1), settings->bending_attenuation) : 0.0f;
+    const float bend = bending[node]; // of a sweep, eq. 5.5 and 5.6; 0 of nodes 0 and 1
     for (int sweep = 0; sweep < settings->iterations; ++sweep)
     {
         if (node > 1)
@@ -62,8 +62,8 @@ simulate(global float4* position, global float4* previous, global const float4* 
         if (node % 2 == 1 && node + 1 < NODES)
             keep_distance(nodes, node, node + 1, rest, settings->stretching, node > 1);
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (bending > 0.0f)
-            keep_distance(nodes, 0, node, settings->bending_scale * rest * (float)node, bending, 0);
+        if (bend > 0.0f)
+            keep_distance(nodes, 0, node, settings->bending_scale * rest * (float)node, bend, 0);
     }
 
     position[at] = nodes[node];

@@ -27,12 +27,20 @@ BaselineSettings make_settings(const BaselineSetup& setup, glm::vec3 scalp, bool
     // Positions differ by velocities half a step earlier, so the first is reached in half a step (Verlet 1967).
     settings.push = (first ? 0.5f : 1.0f) * gain * setup.gravity;
     settings.stretching = per_sweep(setup.stretching, setup.iterations);
-    settings.bending = per_sweep(setup.bending, setup.iterations);
-    settings.bending_attenuation = setup.bending_attenuation;
     settings.bending_scale = setup.bending_scale;
     settings.iterations = setup.iterations;
     settings.spheres = int(setup.spheres.size());
     return settings;
+}
+
+// Of each node, eq. 5.6; nodes 0 and 1 follow the scalp.
+static std::vector<float> bending_of(const BaselineSetup& setup)
+{
+    std::vector<float> bending(size_t(setup.nodes));
+    for (int i = 2; i < setup.nodes; ++i)
+        bending[size_t(i)] =
+            per_sweep(setup.bending, setup.iterations) / std::pow(float(i - 1), setup.bending_attenuation);
+    return bending;
 }
 
 static Kernel load(const Device& device, const BaselineSetup& setup)
@@ -58,14 +66,15 @@ Baseline::Baseline(const Device& device, const BaselineSetup& setup, glm::vec3 s
             positions.push_back(F4(node.x, node.y, node.z, 0.0f));
         }
     }
-    const auto add = [&](const char* name, const std::vector<float4>& values)
+    const auto add = [&](const char* name, const auto& values)
     {
-        buffers_[name] = allocate(device_, values.size() * sizeof(float4), "the thesis' strands");
+        buffers_[name] = allocate(device_, values.size() * sizeof(values[0]), "the thesis' strands");
         write(device_, buffers_[name], values);
     };
     add("position", positions);
     add("previous", positions);
     add("root", setup.roots);
+    add("bending", bending_of(setup));
     add("spheres", setup.spheres);
     buffers_["settings"] = allocate(device_, sizeof(BaselineSettings), "the thesis' settings");
 }
