@@ -1,6 +1,6 @@
 // Symmetric positive definite systems whose entries lie within BAND of the diagonal: what a strand's nodes, each tied
 // to its neighbours only, have for a matrix. Solving is linear in their number (Golub, Van Loan. Matrix computations.
-// Section 4.3.5: banded L D L^T).
+// Chapter 4.3: banded).
 #pragma once
 #include <algorithm>
 #include <array>

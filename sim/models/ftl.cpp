@@ -1,7 +1,7 @@
 // Each node follows its leader at the link's length, in one walk from root to tip: never any stretch. Mueller, Kim,
 // Chentanez. Fast simulation of inextensible hair and fur. 2012. The walk moves only the outer node, as if each were
 // infinitely heavier than the next; part of what the next one was moved by is given back to the velocity for it
-// (dynamic follow-the-leader, eq. 9), which is what keeps the hair from whipping, and damps it.
+// (dynamic follow-the-leader), which is what keeps the hair from whipping, and damps it.
 #include "sim/models/all.h"
 #include "sim/models/strand.h"
 

@@ -13,7 +13,7 @@ namespace coif::study
 namespace
 {
 
-// Moves two nodes along their difference towards a distance (eq. 3 there), each by its share of their inverse masses.
+// Moves two nodes along their difference towards a distance, each by its share of their inverse masses.
 void keep_distance(glm::dvec3& a, glm::dvec3& b, double wa, double wb, double distance, double strength)
 {
     const glm::dvec3 along = b - a;

@@ -12,7 +12,7 @@ namespace
 
 // Second differences are the constraint, the reciprocal of their energy's factor the compliance,
 // by the time that a force's impulse takes effect over (h^2 but for drag). The multiplier starts
-// at zero with each substep (Macklin et al. 2019, section 3), so equation 18 of 2016 has no term of it. Every third
+// at zero with each substep (Macklin et al. 2019), so equation 18 of 2016 has no term of it. Every third
 // hinge at a time, as a device would: none of them share a node.
 void bend(const Strand& strand, double impulse, std::vector<glm::dvec3>& to)
 {
