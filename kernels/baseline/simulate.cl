@@ -1,9 +1,10 @@
 // The thesis' own update kernel, kept to be measured against: listing A.1 and section 5.1.2 with one work-group a
-// strand and one work-item a node, previous positions instead of velocities, and barriers between batches of constraints.
+// strand and one work-item a node, previous positions instead of velocities, and barriers between batches of
+// constraints.
 //
 // The listing's mistakes are mended: the odd batch ends before the last node, segments below the scalp never move,
-// equal points have no direction, drag is exact for any strength, and NODES is a build option. The strengths per sweep and
-// node come from the host, which has them only once: the listing's powers would cost more than eight of its sweeps.
+// equal points have no direction, drag is exact for any strength, and NODES is a build option. The strengths per sweep
+// and node come from the host, which has them only once: the listing's powers would cost more than eight of its sweeps.
 // Wind, turbulence, the forces between hairs and the density are left out: what is measured is motion and constraints.
 #include "settings.h"
 
