@@ -93,10 +93,10 @@ Kernel load_kernel(const Device& device, const std::string& file, const std::str
                    program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device));
     }
     Kernel kernel;
-    kernel.name = file;
+    kernel.name = path.stem().string();
     try
     {
-        kernel.handle = cl::Kernel(program, file.c_str());
+        kernel.handle = cl::Kernel(program, kernel.name.c_str());
         const cl_uint count = kernel.handle.getInfo<CL_KERNEL_NUM_ARGS>();
         for (cl_uint i = 0; i < count; ++i)
         {
@@ -106,7 +106,7 @@ Kernel load_kernel(const Device& device, const std::string& file, const std::str
     }
     catch (const cl::Error& e)
     {
-        throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(), file, e.err(),
+        throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(), kernel.name, e.err(),
                    e.what());
     }
     return kernel;

@@ -41,7 +41,8 @@ struct Device
 // device of any kind. Throws Error naming the devices there are.
 Device open_device(const std::string& wish, const std::filesystem::path& kernel_folder);
 
-// kernels/<file>.cl must define `kernel void <file>(...)`. Throws Error with the compiler's words.
+// kernels/<file>.cl must define the kernel of its name: `kernel void <file>(...)`, without its folder. Throws Error
+// with the compiler's words.
 Kernel load_kernel(const Device& device, const std::string& file, const std::string& options);
 
 // Sets the arguments by their names. Throws Error when a kernel asks for what is no buffer. Returns the launch's event.
