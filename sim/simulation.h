@@ -62,6 +62,8 @@ class Simulation
     glm::dvec3 jumped() const { return solver_->jumped(); } // how far teleports have carried the head, m
 
   private:
+    void drape();
+
     const Device& device_;
     Hairstyle style_;
     Assets assets_;
