@@ -162,15 +162,6 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
 #ifdef DENSITY
     if (info->last_substep)
-        for (int i = 1; i < NODES; ++i)
-        {
-            float px[WIDTH], py[WIDTH], pz[WIDTH];
-            LANES_STORE(x[i], px);
-            LANES_STORE(y[i], py);
-            LANES_STORE(z[i], pz);
-            for (int lane = 0; lane < WIDTH; ++lane)
-                if (strand + lane < info->guides)
-                    add_density(density, px[lane], py[lane], pz[lane], info);
-        }
+        add_strands_density(density, position, strand, info);
 #endif
 }

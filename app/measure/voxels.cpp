@@ -1,0 +1,256 @@
+// A13: does the repulsion hang on where the grid happens to lie? The same hair, at rest, is asked for its forces in
+// grids moved by fractions of a voxel, and in a mirror; and whether all forces add up to nothing, as those between
+// pairs would.
+#include "app/measure/geodesic.h"
+#include "app/measure/measure.h"
+#include "app/measure/statistics.h"
+#include "sim/error.h"
+#include "sim/simulation.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace coif
+{
+
+namespace
+{
+constexpr float kFrame = 1.0f / 60.0f;
+using Forces = std::vector<glm::dvec3>; // m/s^2, strand after strand, nodes 1 and outwards
+
+struct Hair // as it hangs
+{
+    HairParams params;
+    Groom groom;
+    std::vector<float> position; // in blocks, as the device has it
+};
+
+struct Noise
+{
+    double placement = 0.0;     // rms deviation among the offsets, against the mean force
+    double net = 0.0;           // |sum| / sum of sizes, worst of the offsets
+    double asymmetry = 0.0;     // rms deviation of the mirrored hair's forces, mirrored back, against the mean force
+    std::vector<Forces> forces; // at each offset
+};
+} // namespace
+
+// A part of a voxel along each axis; the first is the grid as coif lays it.
+static const glm::vec3 kOffsets[] = {{0, 0, 0}, {0.25f, 0.5f, 0.75f}, {0.5f, 0.75f, 0.25f}, {0.75f, 0.25f, 0.5f}};
+
+static std::vector<float> positions_of(const Solver& solver)
+{
+    const Mapped mapped = solver.guide_positions();
+    return {mapped.as<float>(), mapped.as<float>() + mapped.bytes() / sizeof(float)};
+}
+
+// A style's guides after a second at rest.
+static Hair hair_of(const Measuring& with, const Hairstyle& style)
+{
+    Simulation simulation(with.device, style);
+    simulation.settle(1.0);
+    return {style.params, simulation.solver().groom(), positions_of(simulation.solver())};
+}
+
+// Many guides: so many that only a part of their nodes feeds the density.
+static Hair crowd(const Measuring& with, const Hairstyle& style, int guides)
+{
+    const double degree = std::numbers::pi / 180.0;
+    Hair hair{style.params, {}, {}};
+    hair.groom = all_simulated(hair.params, {}, even_roots({}, guides, 0.0f, float(110.0 * degree)));
+    hair.groom.drawn.clear();
+    hair.groom.drawn_multi = 0;
+    hair.params.forces_repulsion = 0.0f;
+    Solver solver(with.device, hair.params, hair.groom, Pose{});
+    solver.set_colliders({{glm::vec3(0.0f), 0.099f, true}});
+    for (int i = 1; i <= 40; ++i)
+        solver.step({{Pose{}, double(i) * kFrame, kFrame}});
+    hair.params.forces_repulsion = style.params.forces_repulsion;
+    hair.position = positions_of(solver);
+    return hair;
+}
+
+// The left side to the right.
+static Hair mirrored(Hair hair)
+{
+    for (std::vector<float>* values : {&hair.groom.root_position, &hair.groom.root_direction, &hair.position})
+        for (size_t i = 0; i < values->size(); ++i)
+            if (i / LANES % 3 == 0)
+                (*values)[i] = -(*values)[i];
+    hair.groom.center.x = -hair.groom.center.x;
+    hair.groom.middle.x = -hair.groom.middle.x;
+    return hair;
+}
+
+// The repulsion of every node, in a grid moved by a part of a voxel.
+static Forces forces_in(const Measuring& with, const Hair& hair, glm::vec3 offset)
+{
+    Groom groom = hair.groom;
+    const float voxel = 2.0f * (groom.longest + groom.farthest) / float(hair.params.grid_resolution - 3);
+    groom.farthest += voxel; // room for the grid to move in
+    groom.middle += offset * voxel;
+    Solver solver(with.device, hair.params, groom, Pose{});
+    write(with.device, solver.buffers().at("position"), hair.position);
+    solver.step({{Pose{}, kFrame, kFrame}}); // still without repulsion: there was no density yet
+
+    Buffers buffers = solver.buffers();
+    buffers["acceleration"] = allocate(with.device, hair.position.size() * sizeof(float), "the forces");
+    Kernel kernel = load_kernel(with.device, "probe_repulsion",
+                                fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={}", groom.nodes,
+                                            hair.params.grid_resolution, with.device.width));
+    run(with.device, kernel, buffers, cl::NDRange(size_t(groom.blocks * LANES / with.device.width)));
+    const std::vector<float> values = read<float>(with.device, buffers.at("acceleration"), hair.position.size());
+    Forces forces;
+    for (int g = 0; g < groom.guides; ++g)
+        for (int k = 1; k < groom.nodes; ++k)
+        {
+            const auto at = [&](int axis) { return double(values[size_t(strand_value(g, k, axis, groom.nodes))]); };
+            forces.emplace_back(at(0), at(1), at(2));
+        }
+    return forces;
+}
+
+static double mean_size(const Forces& forces)
+{
+    double sum = 0.0;
+    for (const glm::dvec3& f : forces)
+        sum += glm::length(f);
+    return sum / double(forces.size());
+}
+
+static double rms_distance(const Forces& a, const Forces& b)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+    return std::sqrt(sum / double(a.size()));
+}
+
+static Noise noise_of(const Measuring& with, const Hair& hair)
+{
+    Noise noise;
+    for (const glm::vec3& offset : kOffsets)
+    {
+        noise.forces.push_back(forces_in(with, hair, offset));
+        glm::dvec3 sum(0.0);
+        for (const glm::dvec3& f : noise.forces.back())
+            sum += f;
+        const double sizes = mean_size(noise.forces.back()) * double(noise.forces.back().size());
+        noise.net = std::max(noise.net, sizes > 0.0 ? glm::length(sum) / sizes : 0.0);
+    }
+    Forces mean(noise.forces[0].size(), glm::dvec3(0.0));
+    for (const Forces& forces : noise.forces)
+        for (size_t i = 0; i < mean.size(); ++i)
+            mean[i] += forces[i] / double(std::size(kOffsets));
+    double squares = 0.0;
+    for (const Forces& forces : noise.forces)
+        squares += std::pow(rms_distance(forces, mean), 2) / double(std::size(kOffsets));
+    noise.placement = std::sqrt(squares) / mean_size(mean);
+
+    Forces back = forces_in(with, mirrored(hair), {0, 0, 0});
+    for (glm::dvec3& f : back)
+        f.x = -f.x;
+    noise.asymmetry = rms_distance(back, noise.forces[0]) / mean_size(mean);
+    return noise;
+}
+
+static Row row_of(const char* scene, const std::string& setting, const char* metric, double error, const Hair& hair)
+{
+    Row row;
+    row.scene = scene;
+    row.setting = setting;
+    row.metric = metric;
+    row.solver = solver_name(hair.params);
+    row.error = error;
+    row.unit = "fraction";
+    row.knob = "grid resolution";
+    row.value = hair.params.grid_resolution;
+    return row;
+}
+
+std::vector<Row> measure_voxels(const Measuring& with)
+{
+    std::vector<Row> rows;
+    const auto judge = [&](const std::string& setting, const Hair& hair)
+    {
+        with.progress(setting);
+        const Noise noise = noise_of(with, hair);
+        const struct
+        {
+            const char* metric;
+            double error, pass, excellent;
+            const char* reference;
+        } judged[] = {{"placement noise", noise.placement, 0.15, 0.05, "mean of 4 grid offsets"},
+                      {"asymmetry", noise.asymmetry, 0.15, 0.05, "the mirrored hair"},
+                      {"net force", noise.net, 0.05, 0.001, "forces between pairs"}};
+        for (const auto& j : judged)
+        {
+            Row row = row_of("A13", setting, j.metric, j.error, hair);
+            row.pass = j.pass;
+            row.state_of_the_art = j.excellent;
+            row.reference = j.reference;
+            rows.push_back(row);
+        }
+    };
+    for (const char* name : {"bob", "curly"})
+    {
+        if (with.quick && std::string(name) != "bob")
+            continue;
+        judge(name, hair_of(with, load_hairstyle(find_style(name))));
+    }
+    const int many = with.quick ? 8192 : 32768;
+    judge(fmt::format("{} guides", many), crowd(with, load_hairstyle(find_style("bob")), many));
+    return rows;
+}
+
+// Variance that the grid spreads a node by along each axis, in voxels: to and from the grid 1/6 each, the central
+// difference 1/3, each blur 2/3.
+static double spread_of(int blur) { return 2.0 / 3.0 * (1 + blur); }
+
+std::vector<Row> measure_grid(const Measuring& with)
+{
+    Hair hair = hair_of(with, load_hairstyle(find_style("bob")));
+    // A grid so fine that it does not show, blurred until it spreads a node as far as the style's own grid does.
+    const int own = hair.params.grid_resolution, own_blur = hair.params.grid_blur, finer = with.quick ? 2 : 4;
+    Hair fine = hair;
+    fine.params.grid_resolution = own * finer;
+    fine.params.grid_blur = int(std::lround(1.5 * spread_of(own_blur) * finer * finer)) - 1;
+    with.progress("reference");
+    const Forces reference = forces_in(with, fine, {0, 0, 0});
+
+    std::vector<Row> rows;
+    std::vector<int> resolutions = {16, 32, 64, 128};
+    if (!with.quick)
+        resolutions = {8, 16, 24, 32, 48, 64, 96, 128};
+    for (const int resolution : resolutions)
+    {
+        with.progress(fmt::format("{}^3 voxels", resolution));
+        hair.params.grid_resolution = resolution;
+        const Noise noise = noise_of(with, hair);
+        Row row =
+            row_of("grid", "bob", "force error", rms_distance(noise.forces[0], reference) / mean_size(reference), hair);
+        row.reference = fmt::format("{}^3 voxels blurred as wide as {}^3", own * finer, own);
+        Solver solver(with.device, hair.params, hair.groom, Pose{});
+        const auto frame = [&]
+        {
+            solver.take_times();
+            solver.step({{Pose{}, 0.0, kFrame}});
+            double ms = 0.0;
+            for (const auto& [pass, spent] : solver.take_times())
+                ms += spent;
+            return ms;
+        };
+        frame();
+        row.ms = interleaved_medians({frame}, with.quick ? 5 : 15)[0];
+        row.ns_strand_frame = 1e6 * row.ms / hair.groom.guides;
+        rows.push_back(row);
+        row.metric = "placement noise";
+        row.error = noise.placement;
+        row.reference = "mean of 4 grid offsets";
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+} // namespace coif
