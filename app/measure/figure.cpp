@@ -38,7 +38,8 @@ struct Range
 };
 } // namespace
 
-// Range and ticks of a logarithmic axis. More than three decades carry one tick each, fewer 1, 2 and 5.
+// Range and ticks of a logarithmic axis. Many decades carry one tick each, few 1, 2 and 5, and less than one still
+// more.
 static std::string log_axis(const char* axis, Range range)
 {
     if (!(range.low > 0.0 && range.low <= range.high))
@@ -46,15 +47,16 @@ static std::string log_axis(const char* axis, Range range)
     const double margin = std::max(1.15, std::pow(range.high / range.low, 0.06));
     const double low = range.low / margin, high = range.high * margin;
     const double decades = std::log10(high / low);
+    const std::vector<double> steps = decades < 0.8   ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
+                                      : decades < 2.5 ? std::vector<double>{1, 2, 5}
+                                                      : std::vector<double>{1};
     std::string ticks;
     for (int e = int(std::floor(std::log10(low))); e <= int(std::ceil(std::log10(high))); ++e)
-        for (const int m : {1, 2, 5})
+        for (const double m : steps)
         {
             const double at = m * std::pow(10.0, e);
-            const bool shown = decades < 2.5 || (m == 1 && (decades < 8 || e % 2 == 0));
             if (at >= low && at <= high)
-                ticks += fmt::format("{}'{}' {:.6g} {}", ticks.empty() ? "" : ", ",
-                                     shown ? fmt::format("{:g}", at) : "", at, shown ? 0 : 1);
+                ticks += fmt::format("{}'{:g}' {:.6g}", ticks.empty() ? "" : ", ", at, at);
         }
     return fmt::format("set logscale {0}\nset {0}range [{1:.6g}:{2:.6g}]\nset {0}tics ({3})\n", axis, low, high, ticks);
 }
@@ -97,10 +99,10 @@ Plot figure(const std::string& name, const std::vector<Panel>& panels)
     const int rows = (int(panels.size()) + columns - 1) / columns;
     Plot plot{name, columns == 1 ? 640 : columns * 440, columns == 1 ? 480 : rows * 360, "", ""};
     if (panels.size() > 1)
-        plot.body += fmt::format("set multiplot layout {},{} margins 0.0,1.0,0.0,1.0 spacing 0.0\n", rows, columns);
+        plot.body += fmt::format("set multiplot layout {},{}\n", rows, columns);
     plot.body += "set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
-                 "set grid linecolor '#EEEEEE' linetype 1\nset key bottom left Left reverse noenhanced samplen 1.6 "
-                 "spacing 1.1 opaque\n";
+                 "set grid linecolor '#EEEEEE' linetype 1\nset key bmargin center horizontal Left reverse noenhanced "
+                 "samplen 1.6 maxcols 3 font ',10'\n";
     for (size_t p = 0; p < panels.size(); ++p)
     {
         const Panel& panel = panels[p];
@@ -123,19 +125,15 @@ Plot figure(const std::string& name, const std::vector<Panel>& panels)
                                          i < series.labels.size() ? series.labels[i] : "");
             }
             plot.data += "END\n";
-            curves.push_back(fmt::format("{} using 1:2 {} title {}", block, style_of(series), quoted(series.title)));
+            // A guide is named where it ends, everything else in the key.
+            const bool guide = series.kind == Series::GUIDE;
+            curves.push_back(fmt::format("{} using 1:2 {} {}", block, style_of(series),
+                                         guide ? "notitle" : "title " + quoted(series.title)));
             if (!series.labels.empty())
-                curves.push_back(fmt::format("{} using 1:2:3 with labels offset 0,0.8 font ',9' textcolor '#555555' "
-                                             "notitle",
-                                             block));
+                curves.push_back(fmt::format("{} using 1:2:3 with labels {} font ',9' textcolor '#555555' notitle",
+                                             block, guide ? "right offset 0,0.7" : "offset 0,0.7"));
         }
-        // The area that the multiplot leaves to this panel, less room for its labels.
-        const double w = 1.0 / columns, h = 1.0 / rows, left = w * double(p % size_t(columns)),
-                     top = 1.0 - h * double(p / size_t(columns));
-        plot.body += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen "
-                                 "{:.4f}\nset bmargin at screen {:.4f}\n",
-                                 left + 0.16 * w, left + 0.97 * w, top - 0.09 * h, top - h + 0.16 * h);
-        plot.body += fmt::format("set title {} noenhanced offset 0,-0.5\nset xlabel {} noenhanced offset 0,0.4\nset "
+        plot.body += fmt::format("set title {} noenhanced offset 0,-0.5\nset xlabel {} noenhanced offset 0,0.2\nset "
                                  "ylabel {} noenhanced\n",
                                  quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label));
         plot.body += panel.log_x ? log_axis("x", x) : linear_axis("x", x);

@@ -16,12 +16,13 @@ namespace fs = std::filesystem;
 static std::string script_of(const Plot& plot)
 {
     // Drawn twice, with nothing kept in between but the data.
-    return fmt::format("# Made by coif measure. Run `gnuplot {0}.gp` for {0}.svg and {0}.png.\n{1}\n"
-                       "set terminal svg size {2},{3} dynamic font 'Helvetica,12' background 'white'\n"
-                       "set output '{0}.svg'\n{4}\nunset output\nreset\n"
-                       "set terminal pngcairo size {5},{6} font 'Sans,18' linewidth 1.6 pointscale 1.5 background "
-                       "'white'\nset output '{0}.png'\n{4}\nunset output\n",
-                       plot.name, plot.data, plot.width, plot.height, plot.body, 2 * plot.width, 2 * plot.height);
+    return fmt::format(
+        "# Made by coif measure. Run `gnuplot {0}.gp` for {0}.svg and {0}.png.\n{1}\n"
+        "set terminal svg size {2},{3} dynamic font 'Helvetica,12' background 'white'\n"
+        "set output '{0}.svg'\n{4}\nunset output\nreset\n"
+        "set terminal pngcairo size {5},{6} font 'Sans,12' fontscale 2 linewidth 2 pointscale 2 background "
+        "'white'\nset output '{0}.png'\n{4}\nunset output\n",
+        plot.name, plot.data, plot.width, plot.height, plot.body, 2 * plot.width, 2 * plot.height);
 }
 
 // Runs gnuplot on a script in a folder, its words into a file there. Returns its exit status, or -1 if there is none.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <unistd.h>
 
 namespace coif
@@ -65,6 +66,7 @@ int measure(const Options& options, const MeasureOptions& wanted)
     write_file(folder / "measure.json", json_of(rows, device.name, wanted.quick));
     const std::string trouble = write_plots(folder, plots_of(rows));
     fmt::print("{}", table_of(rows));
+    std::fflush(stdout); // before the words
     if (!trouble.empty())
         fmt::print(stderr, "coif: {}\n", trouble);
     const auto missed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed(); });

@@ -209,7 +209,7 @@ static std::vector<Row> likeness(const Measuring& with, Renderer& renderer, cons
     std::vector<std::function<double()>> runs;
     for (const Take& take : takes)
         runs.push_back([&] { return take_ms(renderer, take, size); });
-    const std::vector<double> ms = interleaved_medians(runs, with.quick ? 1 : 3);
+    const std::vector<double> ms = interleaved_medians(runs, with.quick ? 3 : 5);
 
     std::vector<Row> rows;
     for (size_t i = 0; i < takes.size(); ++i)
@@ -224,10 +224,11 @@ static std::vector<Row> likeness(const Measuring& with, Renderer& renderer, cons
         row.at_least = true;
         row.ms = ms[i];
         row.reference = fmt::format("{} strands simulated, 30 subdivisions, {} samples", all.guides, reference.samples);
-        row.metric = "SSIM over hair";
+        row.unit = "SSIM";
+        row.metric = "over hair";
         row.error = ssim(take.image, reference.image, either(take.hair, reference.hair));
         rows.push_back(row);
-        row.metric = "SSIM over the frame";
+        row.metric = "over the frame";
         row.error = ssim(take.image, reference.image);
         rows.push_back(row);
     }

@@ -129,13 +129,13 @@ static std::vector<Panel> order(const std::vector<Row>& rows)
             high = std::max(high, row.value);
             least = std::min(least, shown_error(row));
         }
-        for (const int p : {1, 2}) // through the lower left corner
-            panel.series.push_back({fmt::format("order {}", p),
+        for (const int p : {1, 2}) // from below the least error
+            panel.series.push_back({"",
                                     Series::GUIDE,
                                     0,
                                     {low, high},
-                                    {least, least * std::pow(high / low, p)},
-                                    {}});
+                                    {0.7 * least, 0.7 * least * std::pow(high / low, p)},
+                                    {"", fmt::format("order {}", p)}});
         panels.push_back(panel);
     }
     return panels;
@@ -164,11 +164,11 @@ static std::vector<Panel> cantilever(const std::vector<Row>& rows)
 static std::vector<Panel> picture(const std::vector<Row>& rows)
 {
     std::vector<Panel> panels;
-    const auto scored = only(rows, [](const Row& r) { return r.scene == "picture" && r.metric == "SSIM over hair"; });
+    const auto scored = only(rows, [](const Row& r) { return r.scene == "picture" && r.metric == "over hair"; });
     for (const std::string& style : keys_of(scored, [](const Row& r) { return r.setting; }))
     {
         const auto own = only(scored, [&](const Row& r) { return r.setting == style; });
-        Panel panel{style, "milliseconds", "SSIM over the pixels that hold hair", true, false, {}};
+        Panel panel{style, "milliseconds", "SSIM over hair", true, false, {}};
         add_series(
             panel, own, [](const Row& r) { return r.knob; }, [](const Row& r) { return r.ms; },
             [](const Row& r) { return r.error; });
@@ -189,7 +189,7 @@ static std::vector<Panel> knobs(const std::vector<Row>& rows)
 {
     std::vector<Panel> panels;
     const auto turned = only(rows, [](const Row& r) { return std::isfinite(r.value) && std::isfinite(r.error); });
-    const Key panel_of = [](const Row& r) { return r.scene + ": " + r.knob + (r.unit.empty() ? "" : " in " + r.unit); };
+    const Key panel_of = [](const Row& r) { return r.scene + ": " + r.knob + " in " + r.unit; };
     for (const std::string& title : keys_of(turned, panel_of))
     {
         const auto own = only(turned, [&](const Row& r) { return panel_of(r) == title; });
@@ -204,20 +204,20 @@ static std::vector<Panel> knobs(const std::vector<Row>& rows)
             continue;
         const bool log_x = values.front() > 0.0 && values.back() >= 4.0 * values.front();
         const double least = *std::min_element(errors.begin(), errors.end());
+        const bool compared = keys_of(own, [](const Row& r) { return r.solver; }).size() > 1;
+        const Key series_of = [compared](const Row& r)
+        { return (r.setting.empty() ? "" : r.setting + ", ") + r.metric + (compared ? ", " + r.solver : ""); };
+        const std::string& unit = own[0].unit;
         Panel panel{own[0].scene + ": " + own[0].knob,
                     own[0].knob,
-                    in_percent(own[0]) ? (own[0].unit == "L" ? "error, % of the length" : "error, %")
-                                       : own[0].metric.substr(0, 4),
+                    unit == "L"          ? "error, % of the length"
+                    : unit == "fraction" ? "error, %"
+                                         : unit,
                     log_x,
                     !own[0].at_least && least > 0.0,
                     {}};
         add_series(
-            panel, own,
-            [](const Row& r) {
-                return (r.setting.empty() ? "" : r.setting + ", ") + r.metric +
-                       (r.solver.empty() ? "" : ", " + r.solver);
-            },
-            [](const Row& r) { return r.value; }, shown_error);
+            panel, own, series_of, [](const Row& r) { return r.value; }, shown_error);
         panels.push_back(panel);
     }
     return panels;
