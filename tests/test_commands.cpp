@@ -173,9 +173,11 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
 
 TEST_F(Commands, measure_writes_rows_that_make_sense_and_passes)
 {
-    const Result result = coif("measure --quick --only A12 -o figures");
+    const Result result = coif("measure --quick --only A12,A13 -o figures");
     EXPECT_EQ(result.status, 0) << result.out << result.err;
-    EXPECT_NE(result.out.find("A12 contact"), std::string::npos);
+    for (const char* scene : {"A12 free", "A12 contact", "A13 bob", "A13 8192 guides"})
+        EXPECT_NE(result.out.find(scene), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("MISSED"), std::string::npos) << result.out;
     const std::string csv = contents("figures/measure.csv"), json = contents("figures/measure.json");
     EXPECT_EQ(csv.rfind("scene,setting,metric,solver,knob,value,", 0), 0u);
     EXPECT_EQ(json.rfind("{\"version\": 1,", 0), 0u);

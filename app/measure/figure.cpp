@@ -47,17 +47,24 @@ static std::string log_axis(const char* axis, Range range)
     const double margin = std::max(1.15, std::pow(range.high / range.low, 0.06));
     const double low = range.low / margin, high = range.high * margin;
     const double decades = std::log10(high / low);
-    const std::vector<double> steps = decades < 0.8   ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
-                                      : decades < 2.5 ? std::vector<double>{1, 2, 5}
-                                                      : std::vector<double>{1};
+    std::vector<double> at;
+    if (decades < 0.5) // a few round numbers
+    {
+        const double power = std::pow(10.0, std::floor(std::log10((high - low) / 3.0)));
+        const double apart = (high - low) / (3.0 * power);
+        const double step = power * (apart < 2.0 ? 1.0 : apart < 5.0 ? 2.0 : 5.0);
+        for (double tick = std::ceil(low / step) * step; tick <= high; tick += step)
+            at.push_back(tick);
+    }
+    else
+        for (int e = int(std::floor(std::log10(low))); e <= int(std::ceil(std::log10(high))); ++e)
+            for (const int m : {1, 2, 5})
+                if (m == 1 || decades < 2.5)
+                    at.push_back(m * std::pow(10.0, e));
     std::string ticks;
-    for (int e = int(std::floor(std::log10(low))); e <= int(std::ceil(std::log10(high))); ++e)
-        for (const double m : steps)
-        {
-            const double at = m * std::pow(10.0, e);
-            if (at >= low && at <= high)
-                ticks += fmt::format("{}'{:g}' {:.6g}", ticks.empty() ? "" : ", ", at, at);
-        }
+    for (const double tick : at)
+        if (tick >= low && tick <= high)
+            ticks += fmt::format("{}'{:.6g}' {:.6g}", ticks.empty() ? "" : ", ", tick, tick);
     return fmt::format("set logscale {0}\nset {0}range [{1:.6g}:{2:.6g}]\nset {0}tics ({3})\n", axis, low, high, ticks);
 }
 
@@ -101,7 +108,7 @@ Plot figure(const std::string& name, const std::vector<Panel>& panels)
     if (panels.size() > 1)
         plot.body += fmt::format("set multiplot layout {},{}\n", rows, columns);
     plot.body += "set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
-                 "set grid linecolor '#EEEEEE' linetype 1\nset key bmargin center horizontal Left reverse noenhanced "
+                 "set grid linecolor '#EEEEEE' linetype 1\nset key tmargin center horizontal Left reverse noenhanced "
                  "samplen 1.6 maxcols 3 font ',10'\n";
     for (size_t p = 0; p < panels.size(); ++p)
     {
@@ -133,7 +140,7 @@ Plot figure(const std::string& name, const std::vector<Panel>& panels)
                 curves.push_back(fmt::format("{} using 1:2:3 with labels {} font ',9' textcolor '#555555' notitle",
                                              block, guide ? "right offset 0,0.7" : "offset 0,0.7"));
         }
-        plot.body += fmt::format("set title {} noenhanced offset 0,-0.5\nset xlabel {} noenhanced offset 0,0.2\nset "
+        plot.body += fmt::format("set title {} noenhanced offset 0,-0.5\nset xlabel {} noenhanced offset 0,0.3\nset "
                                  "ylabel {} noenhanced\n",
                                  quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label));
         plot.body += panel.log_x ? log_axis("x", x) : linear_axis("x", x);

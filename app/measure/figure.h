@@ -33,7 +33,7 @@ struct Panel
     std::vector<Series> series;
 };
 
-// The script's parts. A panel's ticks are 1, 2, 5 where the axis is logarithmic and short.
+// The script's parts.
 Plot figure(const std::string& name, const std::vector<Panel>& panels);
 
 } // namespace coif

@@ -22,6 +22,10 @@ namespace coif
 
 namespace
 {
+// Close by, a strand that has moved by its own width is another strand to SSIM. From as many times further off, what
+// counts is where the locks are and how dark they are.
+constexpr int kAfar = 4;
+
 struct Size
 {
     int width, height, samples, strands;
@@ -80,6 +84,18 @@ static Mask either(const Mask& a, const Mask& b)
     for (size_t i = 0; i < both.size(); ++i)
         both[i] = a[i] || b[i];
     return both;
+}
+
+// Blocks of which any pixel counts.
+static Mask shrunk(const Mask& mask, int width, int height)
+{
+    const int wide = width / kAfar, high = height / kAfar;
+    Mask small(size_t(wide * high));
+    for (int y = 0; y < high * kAfar; ++y)
+        for (int x = 0; x < wide * kAfar; ++x)
+            if (mask[size_t(y * width + x)])
+                small[size_t(y / kAfar * wide + x / kAfar)] = true;
+    return small;
 }
 
 // Milliseconds of a step, its drawn strands and the picture.
@@ -226,7 +242,12 @@ static std::vector<Row> likeness(const Measuring& with, Renderer& renderer, cons
         row.reference = fmt::format("{} strands simulated, 30 subdivisions, {} samples", all.guides, reference.samples);
         row.unit = "SSIM";
         row.metric = "over hair";
-        row.error = ssim(take.image, reference.image, either(take.hair, reference.hair));
+        const Mask hair = either(take.hair, reference.hair);
+        row.error = ssim(take.image, reference.image, hair);
+        rows.push_back(row);
+        row.metric = "over hair from afar";
+        row.error =
+            ssim(shrunk(take.image, kAfar), shrunk(reference.image, kAfar), shrunk(hair, size.width, size.height));
         rows.push_back(row);
         row.metric = "over the frame";
         row.error = ssim(take.image, reference.image);

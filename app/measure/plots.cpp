@@ -172,11 +172,22 @@ static std::vector<Panel> picture(const std::vector<Row>& rows)
         add_series(
             panel, own, [](const Row& r) { return r.knob; }, [](const Row& r) { return r.ms; },
             [](const Row& r) { return r.error; });
+        // Each point tells its knob's value, unless that would lie on another's.
+        std::vector<CostError> told;
         for (Series& series : panel.series)
         {
             for (const Row& row : own)
                 if (row.knob == series.title)
-                    series.labels.push_back(std::isfinite(row.value) ? fmt::format("{:g}", row.value) : "");
+                {
+                    const auto near = [&](const CostError& other) {
+                        return std::abs(std::log(other.cost / row.ms)) < 0.15 &&
+                               std::abs(other.error - row.error) < 0.04;
+                    };
+                    const bool room = std::isfinite(row.value) && std::none_of(told.begin(), told.end(), near);
+                    series.labels.push_back(room ? fmt::format("{:g}", row.value) : "");
+                    if (room)
+                        told.push_back({row.ms, row.error});
+                }
             if (series.x.size() == 1)
                 series.kind = Series::STAR;
         }
@@ -204,9 +215,20 @@ static std::vector<Panel> knobs(const std::vector<Row>& rows)
             continue;
         const bool log_x = values.front() > 0.0 && values.back() >= 4.0 * values.front();
         const double least = *std::min_element(errors.begin(), errors.end());
-        const bool compared = keys_of(own, [](const Row& r) { return r.solver; }).size() > 1;
-        const Key series_of = [compared](const Row& r)
-        { return (r.setting.empty() ? "" : r.setting + ", ") + r.metric + (compared ? ", " + r.solver : ""); };
+        // A series is named by what tells it from the others.
+        const auto several = [&own](const Key& key) { return keys_of(own, key).size() > 1; };
+        const bool settings = several([](const Row&r) { return r.setting; }),
+                   metrics = several([](const Row&r) { return r.metric; }),
+                   solvers = several([](const Row&r) { return r.solver; });
+        const Key series_of = [=](const Row& r)
+        {
+            std::string name;
+            for (const auto& [told, word] :
+                 {std::pair(settings, &r.setting), std::pair(metrics, &r.metric), std::pair(solvers, &r.solver)})
+                if (told)
+                    name += (name.empty() ? "" : ", ") + *word;
+            return name.empty() ? r.metric : name;
+        };
         const std::string& unit = own[0].unit;
         Panel panel{own[0].scene + ": " + own[0].knob,
                     own[0].knob,

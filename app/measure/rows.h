@@ -22,9 +22,10 @@ struct Row
     std::string reference; // what the error is against
     double stretch = NAN;  // worst of a guide's segment, fraction
     double penetration_mm = NAN;
-    double ns_strand_frame = NAN; // device time for a simulated strand and a frame of 1/60 s
-    double ms = NAN;              // of a whole picture or frame, where that is the price
-    double pass = NAN;            // bound that the error must keep; NaN: the row is not judged
+    double ns_strand_frame =
+        NAN;           // device time for a strand and a frame of 1/60 s; a drawn strand where those are counted
+    double ms = NAN;   // of a whole picture or frame, where that is the price
+    double pass = NAN; // bound that the error must keep; NaN: the row is not judged
     double state_of_the_art = NAN;
     bool at_least = false; // is a larger error better, as for an order or a similarity?
 

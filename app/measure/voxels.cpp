@@ -27,6 +27,13 @@ struct Hair // as it hangs
     std::vector<float> position; // in blocks, as the device has it
 };
 
+struct Probe
+{
+    Forces forces;
+    std::vector<glm::dvec3> nodes; // where they act, m
+    StepInfo info;
+};
+
 struct Noise
 {
     double placement = 0.0;     // rms deviation among the offsets, against the mean force
@@ -84,7 +91,7 @@ static Hair mirrored(Hair hair)
 }
 
 // The repulsion of every node, in a grid moved by a part of a voxel.
-static Forces forces_in(const Measuring& with, const Hair& hair, glm::vec3 offset)
+static Probe probe(const Measuring& with, const Hair& hair, glm::vec3 offset)
 {
     Groom groom = hair.groom;
     const float voxel = 2.0f * (groom.longest + groom.farthest) / float(hair.params.grid_resolution - 3);
@@ -101,14 +108,25 @@ static Forces forces_in(const Measuring& with, const Hair& hair, glm::vec3 offse
                                             hair.params.grid_resolution, with.device.width));
     run(with.device, kernel, buffers, cl::NDRange(size_t(groom.blocks * LANES / with.device.width)));
     const std::vector<float> values = read<float>(with.device, buffers.at("acceleration"), hair.position.size());
-    Forces forces;
+    const std::vector<float> position = positions_of(solver);
+    Probe found{{}, {}, solver.info()};
     for (int g = 0; g < groom.guides; ++g)
         for (int k = 1; k < groom.nodes; ++k)
         {
-            const auto at = [&](int axis) { return double(values[size_t(strand_value(g, k, axis, groom.nodes))]); };
-            forces.emplace_back(at(0), at(1), at(2));
+            const auto of = [&](const std::vector<float>& from)
+            {
+                const auto at = [&](int axis) { return double(from[size_t(strand_value(g, k, axis, groom.nodes))]); };
+                return glm::dvec3(at(0), at(1), at(2));
+            };
+            found.forces.push_back(of(values));
+            found.nodes.push_back(of(position));
         }
-    return forces;
+    return found;
+}
+
+static Forces forces_in(const Measuring& with, const Hair& hair, glm::vec3 offset)
+{
+    return probe(with, hair, offset).forces;
 }
 
 static double mean_size(const Forces& forces)
@@ -204,33 +222,65 @@ std::vector<Row> measure_voxels(const Measuring& with)
     return rows;
 }
 
-// Variance that the grid spreads a node by along each axis, in voxels: to and from the grid 1/6 each, the central
-// difference 1/3, each blur 2/3.
-static double spread_of(int blur) { return 2.0 / 3.0 * (1 + blur); }
+// The forces without a grid: each node pushes each other one down the slope of a Gaussian as wide as the style's own
+// grid spreads a node. Its variance along each axis, in voxels: to and from the grid 1/6 each, the central difference
+// 1/3, a blur 2/3.
+static Forces pair_forces(const std::vector<glm::dvec3>& nodes, const StepInfo& info, int blur)
+{
+    const double voxel = info.grid_corner.w, variance = 2.0 / 3.0 * (1 + blur) * voxel * voxel;
+    const double volume = std::pow(2.0 * std::numbers::pi * variance, 1.5);
+    // From density a voxel and its difference from voxel to voxel to density and slope.
+    const double strength = double(info.repulsion) * DENSITY_ONE * std::pow(voxel, 4.0) / (volume * variance);
+    Forces forces(nodes.size(), glm::dvec3(0.0));
+    for (size_t i = 0; i < nodes.size(); ++i)
+        for (size_t j = i + 1; j < nodes.size(); ++j)
+        {
+            const glm::dvec3 away = nodes[i] - nodes[j];
+            const double squared = glm::dot(away, away) / variance;
+            if (squared > 40.0)
+                continue;
+            const glm::dvec3 push = strength * std::exp(-0.5 * squared) * away;
+            forces[i] += push;
+            forces[j] -= push;
+        }
+    for (glm::dvec3& f : forces) // as kernels/forces.h bounds them
+        f *= std::min(1.0, 50.0 / std::max(glm::length(f), 1e-6));
+    return forces;
+}
 
 std::vector<Row> measure_grid(const Measuring& with)
 {
     Hair hair = hair_of(with, load_hairstyle(find_style("bob")));
-    // A grid so fine that it does not show, blurred until it spreads a node as far as the style's own grid does.
-    const int own = hair.params.grid_resolution, own_blur = hair.params.grid_blur, finer = with.quick ? 2 : 4;
-    Hair fine = hair;
-    fine.params.grid_resolution = own * finer;
-    fine.params.grid_blur = int(std::lround(1.5 * spread_of(own_blur) * finer * finer)) - 1;
+    const int own = hair.params.grid_resolution, own_blur = hair.params.grid_blur;
     with.progress("reference");
-    const Forces reference = forces_in(with, fine, {0, 0, 0});
+    const Probe at_rest = probe(with, hair, {0, 0, 0});
+    const Forces reference = pair_forces(at_rest.nodes, at_rest.info, own_blur);
+
+    // Each knob alone, from where the style has it.
+    struct Setting
+    {
+        const char* knob;
+        int resolution, blur;
+    };
+    std::vector<Setting> settings;
+    for (const int resolution :
+         with.quick ? std::vector<int>{16, 32, 64, 128} : std::vector<int>{8, 16, 24, 32, 48, 64, 96, 128})
+        settings.push_back({"grid resolution", resolution, own_blur});
+    for (const int blur : {0, 1, 2, 4, 8})
+        settings.push_back({"grid blur", own, blur});
 
     std::vector<Row> rows;
-    std::vector<int> resolutions = {16, 32, 64, 128};
-    if (!with.quick)
-        resolutions = {8, 16, 24, 32, 48, 64, 96, 128};
-    for (const int resolution : resolutions)
+    for (const Setting& setting : settings)
     {
-        with.progress(fmt::format("{}^3 voxels", resolution));
-        hair.params.grid_resolution = resolution;
+        with.progress(fmt::format("{}^3 voxels, blurred {} times", setting.resolution, setting.blur));
+        hair.params.grid_resolution = setting.resolution;
+        hair.params.grid_blur = setting.blur;
         const Noise noise = noise_of(with, hair);
         Row row =
             row_of("grid", "bob", "force error", rms_distance(noise.forces[0], reference) / mean_size(reference), hair);
-        row.reference = fmt::format("{}^3 voxels blurred as wide as {}^3", own * finer, own);
+        row.knob = setting.knob;
+        row.value = setting.knob == std::string("grid blur") ? setting.blur : setting.resolution;
+        row.reference = fmt::format("all pairs, as wide as {}^3 voxels spread a node", own);
         Solver solver(with.device, hair.params, hair.groom, Pose{});
         const auto frame = [&]
         {
