@@ -1,6 +1,7 @@
 // A12: how far hair that follows guides is from hair that is simulated, over the spacing of the guides; and what the
 // share of turned copies does to that. The strands compared stand on the same roots, and the reference goes through the
 // same passes, as strands that follow one guide of their own: all that differs is the interpolation.
+#include "app/measure/cost.h"
 #include "app/measure/geodesic.h"
 #include "app/measure/measure.h"
 #include "app/measure/statistics.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 namespace coif
@@ -108,29 +108,6 @@ static Deviation compare(const Track& track, const Track& reference, const Groom
     return error;
 }
 
-// Milliseconds that the device needs for a frame of each, all its passes.
-static std::vector<double> frame_ms(const std::vector<std::unique_ptr<Solver>>& solvers, bool quick)
-{
-    std::vector<std::function<double()>> runs;
-    for (const auto& solver : solvers)
-        runs.push_back(
-            [&solver]
-            {
-                const int frames = 4;
-                solver->take_times();
-                for (int i = 0; i < frames; ++i)
-                {
-                    solver->step({{solver->head(), 0.0, kFrame}});
-                    solver->draw();
-                }
-                double ms = 0.0;
-                for (const auto& [pass, spent] : solver->take_times())
-                    ms += spent;
-                return ms / frames;
-            });
-    return interleaved_medians(runs, quick ? 5 : 11);
-}
-
 std::vector<Row> measure_interpolation(const Measuring& with)
 {
     const Ball ball;
@@ -154,7 +131,7 @@ std::vector<Row> measure_interpolation(const Measuring& with)
         const Groom all = all_simulated(params, ball, roots);
         const Track reference = follow(*solver_of(all), params, with.quick);
 
-        std::vector<std::unique_ptr<Solver>> solvers;
+        Solvers solvers;
         std::vector<double> spacing_mm, median_error;
         const size_t first = rows.size();
         for (const int frequency : frequencies)
@@ -194,7 +171,7 @@ std::vector<Row> measure_interpolation(const Measuring& with)
             rows.push_back(row);
         }
         with.progress(setting + ", costs");
-        const std::vector<double> ms = frame_ms(solvers, with.quick);
+        const std::vector<double> ms = frame_ms(solvers, true, with.quick ? 5 : 11);
         for (size_t i = 0; i < 3 * solvers.size(); ++i)
         {
             rows[first + i].ms = ms[i / 3];
@@ -222,7 +199,7 @@ std::vector<Row> measure_ratio(const Measuring& with)
     const GeodesicGroom made = geodesic_groom(params, ball, covering, 6);
     params.interpolation_strands = with.quick ? 512 : 2048;
     std::vector<Row> rows;
-    std::vector<std::unique_ptr<Solver>> solvers;
+    Solvers solvers;
     for (const float ratio : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f})
     {
         with.progress(fmt::format("{:.0f} % copies", 100.0f * ratio));
@@ -259,7 +236,7 @@ std::vector<Row> measure_ratio(const Measuring& with)
         row.error = percentile(error.distance, 0.95);
         rows.push_back(row);
     }
-    const std::vector<double> ms = frame_ms(solvers, with.quick);
+    const std::vector<double> ms = frame_ms(solvers, true, with.quick ? 5 : 11);
     for (size_t i = 0; i < rows.size(); ++i)
     {
         rows[i].ms = ms[i / 2];

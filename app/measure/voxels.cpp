@@ -1,9 +1,9 @@
 // A13: does the repulsion hang on where the grid happens to lie? The same hair, at rest, is asked for its forces in
 // grids moved by fractions of a voxel, and in a mirror; and whether all forces add up to nothing, as those between
 // pairs would.
+#include "app/measure/cost.h"
 #include "app/measure/geodesic.h"
 #include "app/measure/measure.h"
-#include "app/measure/statistics.h"
 #include "sim/error.h"
 #include "sim/simulation.h"
 
@@ -270,6 +270,7 @@ std::vector<Row> measure_grid(const Measuring& with)
         settings.push_back({"grid blur", own, blur});
 
     std::vector<Row> rows;
+    Solvers solvers;
     for (const Setting& setting : settings)
     {
         with.progress(fmt::format("{}^3 voxels, blurred {} times", setting.resolution, setting.blur));
@@ -281,24 +282,18 @@ std::vector<Row> measure_grid(const Measuring& with)
         row.knob = setting.knob;
         row.value = setting.knob == std::string("grid blur") ? setting.blur : setting.resolution;
         row.reference = fmt::format("all pairs, as wide as {}^3 voxels spread a node", own);
-        Solver solver(with.device, hair.params, hair.groom, Pose{});
-        const auto frame = [&]
-        {
-            solver.take_times();
-            solver.step({{Pose{}, 0.0, kFrame}});
-            double ms = 0.0;
-            for (const auto& [pass, spent] : solver.take_times())
-                ms += spent;
-            return ms;
-        };
-        frame();
-        row.ms = interleaved_medians({frame}, with.quick ? 5 : 15)[0];
-        row.ns_strand_frame = 1e6 * row.ms / hair.groom.guides;
+        solvers.push_back(std::make_unique<Solver>(with.device, hair.params, hair.groom, Pose{}));
         rows.push_back(row);
         row.metric = "placement noise";
         row.error = noise.placement;
         row.reference = "mean of 4 grid offsets";
         rows.push_back(row);
+    }
+    const std::vector<double> ms = frame_ms(solvers, false, with.quick ? 5 : 11);
+    for (size_t i = 0; i < rows.size(); ++i)
+    {
+        rows[i].ms = ms[i / 2];
+        rows[i].ns_strand_frame = 1e6 * ms[i / 2] / hair.groom.guides;
     }
     return rows;
 }
