@@ -1,5 +1,7 @@
 #include "app/report.h"
 
+#include "app/json.h"
+#include "app/measure/statistics.h"
 #include "sim/error.h"
 #include "sim/health.h"
 
@@ -11,30 +13,6 @@
 
 namespace coif
 {
-
-static double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0.0;
-    std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
-static std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-        if (c == '"' || c == '\\')
-            out += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20)
-            out += fmt::format("\\u{:04x}", int(c));
-        else
-            out += c;
-    return out;
-}
-
-// JSON has no NaN.
-static std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null"; }
 
 int report(const Options& options, const ReportOptions& wanted)
 {
@@ -98,16 +76,16 @@ int report(const Options& options, const ReportOptions& wanted)
     {
         std::vector<std::string> passes;
         for (const auto& [pass, spent] : pass_ms)
-            passes.push_back(fmt::format("\"{}\": {}", pass, number(median(spent))));
+            passes.push_back(fmt::format("{}: {}", json_text(pass), json_number(median(spent))));
         text = fmt::format(
-            "{{\"style\": \"{}\", \"motion\": \"{}\", \"device\": \"{}\", \"guides\": {}, \"strands\": {}, \"nodes\": "
+            "{{\"style\": {}, \"motion\": {}, \"device\": {}, \"guides\": {}, \"strands\": {}, \"nodes\": "
             "{}, \"frames\": {}, \"finite\": {}, \"stretch_max\": {}, \"stretch_mean\": {}, \"penetration_max_mm\": "
             "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"dropped_steps\": {}, \"ms_frame_median\": {}, "
             "\"ms_pass\": {{{}}}}}\n",
-            escaped(style.name()), escaped(motion.name), escaped(device.name), groom.guides, groom.drawn.size(),
-            groom.nodes, frames, worst.finite, number(worst.stretch_max), number(stretch_mean),
-            number(1e3 * worst.penetration_max), number(1e3 * worst.drawn_penetration_max), reset_count,
-            simulation.dropped(), number(median(frame_ms)), fmt::join(passes, ", "));
+            json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
+            groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
+            json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
+            simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "));
     }
     else
     {

@@ -252,7 +252,6 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 
 #ifdef DENSITY
     if (info->last_substep)
-        for (int i = 1; i < NODES; ++i)
-            add_density_lanes(density, x[i], strand, info);
+        add_strands_density(density, position, strand, info);
 #endif
 }

@@ -23,10 +23,10 @@ kernel void simulate_rigid(global float* position, global float* velocity, globa
         farthest2 = fmax(farthest2, dot_lanes(by, by));
         store_lanes(x, position + at);
         store_lanes(points(by.x * per_second, by.y * per_second, by.z * per_second), velocity + at);
-#ifdef DENSITY
-        if (info->last_substep && i > 0)
-            add_density_lanes(density, x, strand, info);
-#endif
     }
     LANES_STORE(fmax(LANES_LOAD(moved + strand), sqrt(farthest2)), moved + strand);
+#ifdef DENSITY
+    if (info->last_substep)
+        add_strands_density(density, position, strand, info);
+#endif
 }

@@ -88,6 +88,21 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
     return weights / (weights.x + weights.y + weights.z);
 }
 
+DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights)
+{
+    const glm::vec3 of[3] = {directions[guides.x], directions[guides.y], directions[guides.z]};
+    const glm::vec3 w = without_opposed(weights, of);
+    // The heaviest guide first: the others may lose their weight to it (kernels/interpolate_multi.cl).
+    int order[3] = {0, 1, 2};
+    std::stable_sort(order, order + 3, [&](int i, int j) { return w[i] > w[j]; });
+    DrawnStrand strand = {};
+    strand.weights = F4(w[order[0]], w[order[1]], w[order[2]], 0.0f);
+    strand.guide0 = int(guides[order[0]]);
+    strand.guide1 = int(guides[order[1]]);
+    strand.guide2 = int(guides[order[2]]);
+    return strand;
+}
+
 static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, const std::vector<glm::vec3>& directions,
                        int count)
 {
@@ -115,17 +130,8 @@ static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, co
         const glm::vec3 weights(1.0f - b - c, b, c);
         const glm::vec3 root =
             scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z;
-        const glm::vec3 of[3] = {directions[t.x], directions[t.y], directions[t.z]};
-        const glm::vec3 w = without_opposed(weights, of);
-        DrawnStrand strand = {};
+        DrawnStrand strand = mixed_of(directions, t, weights);
         strand.root = F4(root.x, root.y, root.z, 0.0f);
-        // The heaviest guide first: the others may lose their weight to it (kernels/interpolate_multi.cl).
-        int order[3] = {0, 1, 2};
-        std::stable_sort(order, order + 3, [&](int i0, int i1) { return w[i0] > w[i1]; });
-        strand.weights = F4(w[order[0]], w[order[1]], w[order[2]], 0.0f);
-        strand.guide0 = int(t[order[0]]);
-        strand.guide1 = int(t[order[1]]);
-        strand.guide2 = int(t[order[2]]);
         groom.drawn.push_back(strand);
     }
 }

@@ -40,7 +40,8 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
                   const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
                   const std::function<Vec()>& rounding = {});
 
-// Nodes 1 and outwards shared out over eight voxels each, thesis 5.1.3. Not rounded; `shares` counts the nodes that had
+// Nodes 1 and outwards, or of many strands an even part of them, shared out over eight voxels each, thesis 5.1.3. Not
+// rounded; `shares` counts the nodes that had
 // a share in a voxel, each of which may be rounded by a half.
 struct Density
 {
