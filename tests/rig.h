@@ -2,6 +2,8 @@
 #pragma once
 #include "tests/on_device.h"
 
+#include <gtest/gtest.h>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -23,6 +25,33 @@ inline HairParams uncoupled()
     params.interpolation_strands = 0;
     return params;
 }
+
+// The thesis' own solver: lengths and bending by sweeps.
+inline HairParams pbd()
+{
+    HairParams params = uncoupled();
+    params.solver_kind = 1;
+    return params;
+}
+
+// For tests of what must hold whichever way strands are moved: the parameter is solver.kind.
+class AnySolver : public testing::TestWithParam<int>
+{
+  protected:
+    static HairParams uncoupled()
+    {
+        HairParams params = coif::uncoupled();
+        params.solver_kind = GetParam();
+        return params;
+    }
+    static bool direct() { return GetParam() == 0; }
+
+  public:
+    static std::string name(const testing::TestParamInfo<int>& test)
+    {
+        return param_labels(*find_param("solver.kind"))[size_t(test.param)];
+    }
+};
 
 struct Rig
 {

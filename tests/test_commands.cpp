@@ -93,8 +93,9 @@ TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout
     EXPECT_EQ(result.out.front(), '{');
     EXPECT_EQ(result.out.substr(result.out.size() - 2), "}\n");
     EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
-    for (const char* key : {"guides", "strands", "nodes", "frames", "stretch_max", "stretch_mean", "penetration_max_mm",
-                            "drawn_penetration_max_mm", "resets", "dropped_steps", "ms_frame_median", "simulate_pbd"})
+    for (const char* key :
+         {"guides", "strands", "nodes", "frames", "stretch_max", "stretch_mean", "penetration_max_mm",
+          "drawn_penetration_max_mm", "resets", "dropped_steps", "ms_frame_median", "simulate_direct"})
         EXPECT_TRUE(std::isfinite(number(result.out, key))) << key << " in " << result.out;
     EXPECT_EQ(number(result.out, "strands"), 200);
     EXPECT_EQ(number(result.out, "frames"), 30);

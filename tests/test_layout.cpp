@@ -29,8 +29,10 @@ struct Field
 #define STEP_FIELDS(X)                                                                                                 \
     X(head_row0) X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity)      \
     X(head_center) X(wind) X(gust_origin) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity)      \
-    X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(guides) X(drawn_multi) X(drawn) X(colliders)    \
-    X(teleport) X(last_substep) X(body_density) X(density_stride) X(density_unit) X(sweep_axis) X(sweep_from) X(sweep_sign)
+    X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(bend_droop) X(bend_modulus) X(tip_mass)         \
+    X(acceleration) X(push_out) X(guides) X(drawn_multi) X(drawn) X(colliders) X(head_colliders) X(teleport)           \
+    X(last_substep) X(body_density) X(density_stride) X(density_unit) X(sweep_axis) X(sweep_from) X(sweep_sign)
+#define PATH_FIELDS(X) X(row) X(drag)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
 // clang-format on
 
@@ -48,31 +50,33 @@ std::vector<Field> all_fields()
     std::vector<Field> fields = fields_of_params();
 #define STEP_FIELD(name) fields.push_back({"StepInfo", #name, int(offsetof(StepInfo, name))});
 #define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
+#define PATH_FIELD(name) fields.push_back({"StepPath", #name, int(offsetof(StepPath, name))});
     STEP_FIELDS(STEP_FIELD)
+    PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
     return fields;
 }
 
-// Members of a struct as they stand in the header, in order.
+// Members of a struct as they stand in the header, in order, arrays without their sizes.
 std::vector<std::string> members_in_text(const std::string& text, const std::string& type)
 {
     const size_t begin = text.find("typedef struct " + type), end = text.find("} " + type, begin);
     const std::string body = std::regex_replace(text.substr(begin, end - begin), std::regex("//[^\n]*"), "");
-    const std::regex declaration("(float4|float|int)\\s+([^;]*);"), name("\\w+");
+    const std::regex declaration("(float4|float|int)\\s+([^;]*);"), name("\\w+"), size("\\[[^\\]]*\\]");
     std::vector<std::string> names;
     for (std::sregex_iterator d(body.begin(), body.end(), declaration), none; d != none; ++d)
     {
-        const std::string list = (*d)[2];
+        const std::string list = std::regex_replace((*d)[2].str(), size, "");
         for (std::sregex_iterator n(list.begin(), list.end(), name); n != none; ++n)
             names.push_back(n->str());
     }
     return names;
 }
 
-TEST(Layout, TheTestKnowsEveryFieldOfStepInfoAndDrawnStrand)
+TEST(Layout, TheTestKnowsEveryFieldOfTheContract)
 {
     const std::string text = read_file(data_folder() / "kernels" / "shared.h");
-    for (const std::string type : {"StepInfo", "DrawnStrand"})
+    for (const std::string type : {"StepInfo", "StepPath", "DrawnStrand"})
     {
         std::vector<std::string> known;
         for (const Field& field : all_fields())
@@ -90,7 +94,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "DrawnStrand"})
+    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -101,20 +105,21 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         fs::copy_file(data_folder() / "kernels" / header, folder / header);
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
-                                            "    DrawnStrand DrawnStrand_;\n" +
+                                            "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 3, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 4, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 3);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 4);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
     EXPECT_EQ(offset[fields.size()], int(sizeof(HairParams)));
     EXPECT_EQ(offset[fields.size() + 1], int(sizeof(StepInfo)));
-    EXPECT_EQ(offset[fields.size() + 2], int(sizeof(DrawnStrand)));
+    EXPECT_EQ(offset[fields.size() + 2], int(sizeof(StepPath)));
+    EXPECT_EQ(offset[fields.size() + 3], int(sizeof(DrawnStrand)));
 }
 
 // A program whose only purpose is to make a uniform block active.

@@ -1,8 +1,6 @@
 // What whole steps must hold to, on grooms made for the purpose: mechanics that have closed answers.
 #include "tests/rig.h"
 
-#include <gtest/gtest.h>
-
 namespace coif
 {
 namespace
@@ -10,7 +8,7 @@ namespace
 
 constexpr double kGravity = 9.81;
 
-TEST(Steps, RootsAreWhereTheHeadPutsThem)
+TEST_P(AnySolver, RootsAreWhereTheHeadPutsThem)
 {
     Random random(1);
     HairParams params = uncoupled();
@@ -26,16 +24,18 @@ TEST(Steps, RootsAreWhereTheHeadPutsThem)
         {
             const Vec at = rig.head.turn * root[s];
             const double rest = double(rig.groom.segment_length[s]) * rig.params.strand_spacing;
-            // A rotation's nine products in floats.
-            EXPECT_LE(glm::distance(x[s * 16 + 1], at), 5e-8);
-            EXPECT_LE(glm::distance(x[s * 16], at - rig.head.turn * direction[s] * rest), 5e-8);
+            // A rotation's nine products in floats; the direct solver adds the head's way of up to a quarter of a
+            // metre, and takes it off again.
+            const double rounding = direct() ? 1e-7 : 5e-8;
+            EXPECT_LE(glm::distance(x[s * 16 + 1], at), rounding);
+            EXPECT_LE(glm::distance(x[s * 16], at - rig.head.turn * direction[s] * rest), rounding);
         }
     }
 }
 
-TEST(Steps, AFreeNodeFallsAsSymplecticEulerSays)
+TEST(Sweeps, AFreeNodeFallsAsSymplecticEulerSays)
 {
-    HairParams params = uncoupled();
+    HairParams params = pbd();
     params.solver_stretching = params.solver_bending = params.forces_drag = 0.0f;
     Rig rig(params, one_strand(16, 0.3f, {0, 0, 0}, {1, 0, 0}));
     const std::vector<Vec> start = rig.positions();
@@ -52,11 +52,11 @@ TEST(Steps, AFreeNodeFallsAsSymplecticEulerSays)
     }
 }
 
-TEST(Steps, DragTakesSpeedAwayExactlyWhateverItsSize)
+TEST(Sweeps, DragTakesSpeedAwayExactlyWhateverItsSize)
 {
     for (const double b : {0.01, 3.0, 60.0, 100.0})
     {
-        HairParams params = uncoupled();
+        HairParams params = pbd();
         params.solver_stretching = params.solver_bending = 0.0f;
         params.forces_drag = float(b);
         Rig rig(params, one_strand(16, 0.3f, {0, 0, 0}, {1, 0, 0}));
@@ -71,10 +71,11 @@ TEST(Steps, DragTakesSpeedAwayExactlyWhateverItsSize)
     }
 }
 
-TEST(Steps, AStrandAtRestHangsStraightDownAndKeepsItsLength)
+TEST_P(AnySolver, AStrandAtRestHangsStraightDownAndKeepsItsLength)
 {
     HairParams params = uncoupled();
     params.solver_bending = 0.0f;
+    params.bending_droop = 10000.0f; // so limp that it does not count
     params.solver_iterations = 40;
     params.forces_drag = 5.0f;
     Rig rig(params, one_strand(16, 0.3f, {0.1f, 0.2f, 0.0f}, {1, 0, 0}));
@@ -89,12 +90,12 @@ TEST(Steps, AStrandAtRestHangsStraightDownAndKeepsItsLength)
     EXPECT_LT(rig.worst_stretch(), 0.01);
 }
 
-TEST(Steps, OverRelaxedSweepsStretchLessThanPlainOnesOfTheSameNumber)
+TEST(Sweeps, OverRelaxedSweepsStretchLessThanPlainOnesOfTheSameNumber)
 {
     double stretch[2];
     for (const int sweeps : {0, 1})
     {
-        HairParams params = uncoupled();
+        HairParams params = pbd();
         params.solver_bending = 0.0f;
         params.solver_sweeps = sweeps;
         params.solver_stretching = 0.99999994f; // just under 1: sweeps alone keep lengths, without the final limit
@@ -122,7 +123,7 @@ Groom mirrored_groom(int pairs, int nodes)
     return groom;
 }
 
-TEST(Steps, AMirroredGroomMovesMirrored)
+TEST_P(AnySolver, AMirroredGroomMovesMirrored)
 {
     for (const bool coupled : {false, true})
     {
@@ -141,12 +142,13 @@ TEST(Steps, AMirroredGroomMovesMirrored)
             for (size_t k = 0; k < 16; ++k)
                 worst = std::max(worst, glm::distance(x[s * 16 + k], x[(s + 1) * 16 + k] * Vec(-1, 1, 1)));
         // Floats round alike on both sides of zero. The grid's weights do not, and steps carry that on; where strands
-        // are squeezed between spheres, a hundredfold in a step, so that one cannot ask for long.
-        EXPECT_LE(worst, coupled ? 1e-6 : 0.0) << (coupled ? "with" : "without") << " repulsion";
+        // are squeezed between spheres, a hundredfold in a step, so that one cannot ask for long. The direct solver may
+        // stop a round sooner on one side: within its tolerance, half a thousandth of 0.2 m.
+        EXPECT_LE(worst, !coupled ? 0.0 : direct() ? 1e-4 : 1e-6) << (coupled ? "with" : "without") << " repulsion";
     }
 }
 
-TEST(Steps, NoGuideEntersACollider)
+TEST_P(AnySolver, NoGuideEntersACollider)
 {
     Random random(2);
     Rig rig(uncoupled(), random_groom(random, 40, 16, 0));
@@ -156,9 +158,11 @@ TEST(Steps, NoGuideEntersACollider)
                                          {{0.0f, -0.25f, 0.0f}, 0.09f, false}};
     rig.solver.set_colliders(apart);
     double deepest = 0.0;
-    for (int i = 1; i <= 120; ++i)
+    for (int i = 1; i <= 150; ++i)
     {
         rig.step(pose({0.05 * std::sin(0.15 * i), 0, 0}, 0.8 * std::sin(0.1 * i)));
+        if (i <= 30) // hair that starts inside is let out at half a metre a second
+            continue;
         const std::vector<Vec> x = rig.positions();
         for (const float4& c : rig.solver.placed_colliders())
             for (size_t n = 0; n < x.size(); ++n)
@@ -168,7 +172,7 @@ TEST(Steps, NoGuideEntersACollider)
     EXPECT_LE(deepest, 1e-7); // a push-out's rounding
 }
 
-TEST(Steps, ALeapCarriesHairRigidlyAndKeepsItsSpeedAgainstTheHead)
+TEST_P(AnySolver, ALeapCarriesHairRigidlyAndKeepsItsSpeedAgainstTheHead)
 {
     struct Leap
     {
@@ -216,7 +220,7 @@ TEST(Steps, ALeapCarriesHairRigidlyAndKeepsItsSpeedAgainstTheHead)
     }
 }
 
-TEST(Steps, ABadStrandIsTheOnlyOneThatStartsAnew)
+TEST_P(AnySolver, ABadStrandIsTheOnlyOneThatStartsAnew)
 {
     Random random(4);
     const Groom groom = random_groom(random, 40, 16, 0);
@@ -247,7 +251,7 @@ TEST(Steps, ABadStrandIsTheOnlyOneThatStartsAnew)
     EXPECT_LT(ill.worst_stretch(), 0.5);
 }
 
-TEST(Steps, TenKilometresFromTheOriginHairMovesTheSame)
+TEST_P(AnySolver, TenKilometresFromTheOriginHairMovesTheSame)
 {
     HairParams params = uncoupled();
     params.forces_wind = F4(5.0f, 0.0f, 3.0f, 0.0f);
@@ -264,6 +268,8 @@ TEST(Steps, TenKilometresFromTheOriginHairMovesTheSame)
     }
     EXPECT_LE(farthest(here.positions(), there.positions()), 1e-5);
 }
+
+INSTANTIATE_TEST_SUITE_P(Steps, AnySolver, testing::Values(0, 1), AnySolver::name);
 
 } // namespace
 } // namespace coif

@@ -57,27 +57,32 @@ std::string differing(const Bytes& a, const Bytes& b)
 
 TEST(Time, EqualInputGivesEqualBytes)
 {
-    Bytes bytes[2];
-    for (Bytes& b : bytes)
+    for (const char* kind : {"solver.kind=direct", "solver.kind=pbd"})
     {
-        Simulation simulation(test_device(), small_style());
-        simulation.play(find_motion("shake"));
-        for (int i = 0; i < 60; ++i)
-            simulation.step(simulation.hand());
-        simulation.solver().draw();
-        b = results(simulation);
+        Bytes bytes[2];
+        for (Bytes& b : bytes)
+        {
+            Simulation simulation(test_device(), small_style(kind));
+            simulation.play(find_motion("shake"));
+            for (int i = 0; i < 60; ++i)
+                simulation.step(simulation.hand());
+            simulation.solver().draw();
+            b = results(simulation);
+        }
+        EXPECT_EQ(differing(bytes[0], bytes[1]), "") << kind;
     }
-    EXPECT_EQ(differing(bytes[0], bytes[1]), "");
 }
 
 TEST(Time, AScriptGivesEqualBytesAtAnyFrameRate)
 {
-    for (const char* motion : {"shake", "gust", "teleport"})
+    const std::string pbd = "solver.kind=pbd;solver.iterations=4";
+    for (const auto& [motion, sets] : {std::pair("shake", pbd), std::pair("shake", std::string()),
+                                       std::pair("gust", std::string()), std::pair("teleport", std::string())})
     {
         Bytes reference;
         for (const int fps : {60, 10, 30, 144})
         {
-            Simulation simulation(test_device(), small_style("solver.iterations=4"));
+            Simulation simulation(test_device(), small_style(sets));
             simulation.play(find_motion(motion));
             int taken = 0;
             for (int frame = 0; frame < 2 * fps; ++frame)
@@ -87,7 +92,7 @@ TEST(Time, AScriptGivesEqualBytesAtAnyFrameRate)
             simulation.solver().draw();
             if (reference.empty())
                 reference = results(simulation);
-            EXPECT_EQ(differing(reference, results(simulation)), "") << motion << " at " << fps;
+            EXPECT_EQ(differing(reference, results(simulation)), "") << motion << " at " << fps << " " << sets;
         }
     }
 }
