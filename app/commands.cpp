@@ -93,6 +93,8 @@ int run_command(int argc, char** argv)
         command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset")->required(style_needed);
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
+        command->add_option("--tolerance", options.tolerance,
+                            "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
         return command;
     };
     const auto with_device = [&](CLI::App* command)

@@ -37,8 +37,8 @@ struct Groom
 // params.interpolation_seed.
 Groom grow(const HairParams& params, const Scalp& scalp);
 
-// A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are left
-// to the caller. `directions` are all guides' root directions.
+// A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are
+// left to the caller. `directions` are all guides' root directions.
 DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights);
 
 // A uniform number in [0, 1) that depends on nothing but its arguments. PCG output of a hashed state, O'Neill 2014.

@@ -64,17 +64,18 @@ static bool same_waves(const Hairstyle& a, const Hairstyle& b)
                                { return info.group != std::string_view("wave") || same_value(a, b, info); });
 }
 
-Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), style_(std::move(style))
+Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), authored_(std::move(style))
 {
-    assets_ = load_assets(style_);
+    assets_ = load_assets(authored_);
+    style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
     solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
     solver_->set_colliders(all_colliders(style_, assets_));
     drape();
 }
 
 // Lets hair fall to where it rests, and begins there: nothing sags when it is first seen. First in air thick enough to
-// stop it soon and on slippery bodies, so that what friction holds later it holds with some to spare; then as it is. What
-// hair holds of that shape (bending.hold) it finds again with its own weight on it.
+// stop it soon and on slippery bodies, so that what friction holds later it holds with some to spare; then as it is.
+// What hair holds of that shape (bending.hold) it finds again with its own weight on it.
 void Simulation::drape()
 {
     if (style_.params.solver_kind != 0)
@@ -82,7 +83,7 @@ void Simulation::drape()
     HairParams thick = style_.params;
     thick.forces_drag = std::max(thick.forces_drag, 15.0f); // near critical for the slowest swing of 0.2 m
     thick.forces_friction *= 0.5f;
-    constexpr int kLookEvery = 16, kMost = 320; // steps
+    constexpr int kLookEvery = 16, kMost = 320;                   // steps
     const double calm = 0.001 * double(solver_->groom().longest); // m/s
     for (const bool again : {false, true})
     {
@@ -111,9 +112,30 @@ void Simulation::drape()
     solver_->take_times();
 }
 
-void Simulation::set_style(const Hairstyle& style, bool reload)
+// Does nothing differ that what a tolerance asks for hangs on?
+static bool same_hair(const Hairstyle& a, const Hairstyle& b)
+{
+    return std::ranges::all_of(param_table(),
+                               [&](const ParamInfo& info)
+                               {
+                                   const bool seen_only =
+                                       info.effect == Effect::VIEW && info.path() != "smoothing.subdivisions";
+                                   return seen_only || same_value(a, b, info);
+                               });
+}
+
+void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
     bool meshes = reload, regrow = reload;
+    Quality quality = quality_;
+    Hairstyle style = authored;
+    if (reload || !same_hair(authored, authored_))
+        style = meet_tolerance(device_, authored, reload ? load_assets(authored).scalp : assets_.scalp, quality);
+    else
+        for (const char* kept :
+             {"solver.courant", "solver.substeps", "strand.nodes", "grid.resolution", "smoothing.subdivisions"})
+            if (!quality_.rungs.empty())
+                copy_value(style_, style, *find_param(kept));
     for (const ParamInfo& info : param_table())
     {
         if (info.effect == Effect::LIVE || info.effect == Effect::VIEW || same_value(style, style_, info))
@@ -148,7 +170,9 @@ void Simulation::set_style(const Hairstyle& style, bool reload)
         rate_since_ = time_; // time goes on from here at the new rate
         steps_since_ = steps_;
     }
+    authored_ = authored;
     style_ = style;
+    quality_ = quality;
     if (refall)
     {
         solver_->reset(solver_->head());

@@ -54,13 +54,13 @@ class Solver
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
 
     // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.
-    Mapped guide_positions() const;  // float, [block][node][axis][lane], relative to the head's origin, m
-    Mapped drawn_positions() const;  // float4 (position relative to the head's origin, share of light), [strand][node]
-    Mapped drawn_frames() const;     // float4 (normal, length from the root), [strand][node]
-    Mapped optical_depth() const;    // float, [slice][ray][ray] of light_grid.h
+    Mapped guide_positions() const; // float, [block][node][axis][lane], relative to the head's origin, m
+    Mapped drawn_positions() const; // float4 (position relative to the head's origin, share of light), [strand][node]
+    Mapped drawn_frames() const;    // float4 (normal, length from the root), [strand][node]
+    Mapped optical_depth() const;   // float, [slice][ray][ray] of light_grid.h
     std::vector<float> multipliers() const; // [block][node][lane], 1/s^2: tension over mass and length
-    std::vector<int> resets() const; // of each guide since the start
-    std::vector<int> faults() const; // of each guide: why it was last reset, FAULT_* of kernels/shared.h
+    std::vector<int> resets() const;        // of each guide since the start
+    std::vector<int> faults() const;        // of each guide: why it was last reset, FAULT_* of kernels/shared.h
     bool has_shadow() const;
 
     const Groom& groom() const { return groom_; }
