@@ -24,7 +24,7 @@ static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
 kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
                          global const float* root_direction, global const float* segment_length,
                          global const float* gradient, global int* density, global int* resets,
-                         constant float4* colliders, constant HairParams* params, constant StepInfo* info)
+                         global int* faults, constant float4* colliders, constant HairParams* params, constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
     if (strand >= (info->guides + LANES - 1) / LANES * LANES)
@@ -36,12 +36,14 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
     // Where the strand was, carried along rigidly if the head has just jumped.
     real ox[NODES], oy[NODES], oz[NODES];
+    whole bad_position = (whole)(0), bad_motion = (whole)(0); // before the step
     for (int i = 0; i < NODES; ++i)
     {
         ox[i] = LANES_LOAD(position + first + i * 3 * LANES);
         oy[i] = LANES_LOAD(position + first + (i * 3 + 1) * LANES);
         oz[i] = LANES_LOAD(position + first + (i * 3 + 2) * LANES);
         turn(&ox[i], &oy[i], &oz[i], info);
+        bad_position |= !(fabs(ox[i]) + fabs(oy[i]) + fabs(oz[i]) < 1e6f);
     }
 
     // Nodes 0 and 1: the segment under the scalp.
@@ -66,6 +68,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         real vy = LANES_LOAD(velocity + first + (i * 3 + 1) * LANES) - info->head_velocity.y;
         real vz = LANES_LOAD(velocity + first + (i * 3 + 2) * LANES) - info->head_velocity.z;
         turn(&vx, &vy, &vz, info);
+        bad_motion |= !(fabs(vx) + fabs(vy) + fabs(vz) < 1e30f);
         Points f = points((real)(0.0f), (real)(info->gravity), (real)(0.0f));
         const Points at = points(ox[i], oy[i], oz[i]);
 #ifdef WIND
@@ -157,11 +160,18 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
                     velocity + first + (i * 3 + 2) * LANES);
     }
 
-    int bad_lanes[WIDTH];
+    int position_lanes[WIDTH], motion_lanes[WIDTH], bad_lanes[WIDTH];
+    LANES_STORE(bad_position, position_lanes);
+    LANES_STORE(bad_motion, motion_lanes);
     LANES_STORE(bad, bad_lanes);
     for (int lane = 0; lane < WIDTH; ++lane)
         if (bad_lanes[lane] && strand + lane < info->guides)
+        {
             atomic_inc(&resets[strand + lane]);
+            faults[strand + lane] = position_lanes[lane] ? FAULT_POSITION
+                                    : motion_lanes[lane] ? FAULT_VELOCITY
+                                                         : FAULT_FORCES;
+        }
 
 #ifdef DENSITY
     if (info->last_substep)
