@@ -90,7 +90,8 @@ typedef struct StepPath
 {
     float4
         row[3 * (MOST_SUBSTEPS + 1)]; // rows of its rotation; w: its origin along that axis, against the step's begin
-    float4 drag[(PACES + 1) * PACES]; // [0: at the start; else 1 + halvings before][halvings now]: keep, gain (s)
+    float4 drag[(PACES + 2) * PACES]; // keep, gain (s): [0: at the start; else 1 + halvings before][halvings now], of
+                                      // the step's first substep; [PACES + 1][halvings now], of those that follow it
 } StepPath;
 
 // Why a strand was reset.

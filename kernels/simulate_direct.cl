@@ -13,6 +13,10 @@
 #include "direct.h"
 #include "forces.h"
 
+
+
+
+
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
 
@@ -108,7 +112,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     float weight[NODES];
     element_weights(params->bending_attenuation, weight);
     Factor factor;
-    factor_bending(&factor, weight, stiffness * (h * path->drag[5 * (level + 1) + level].y), tip_mass);
+    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * (PACES + 1) + level].y), tip_mass);
 #endif
 #ifdef CONTACT
     Bodies near;
@@ -138,7 +142,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     {
         const int sixteenths = MOST_SUBSTEPS >> level;
         const HeadPose last = head_pose(path, substep * sixteenths), now = head_pose(path, (substep + 1) * sixteenths);
-        const float4 drag = path->drag[5 * (substep ? level + 1 : before) + level];
+        const float4 drag = path->drag[PACES * (substep ? PACES + 1 : before) + level];
         const float keep = drag.x, hg = h * drag.y;
 
         // Nodes 0 and 1: the segment under the scalp.
@@ -184,6 +188,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
 #endif
 
+        Points predicted[NODES]; // should the length solve fail
+        for (int i = 2; i < NODES; ++i)
+            predicted[i] = move[i];
+        real kept = (real)(1.0f);
         whole open = (whole)(-1);
         for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
         {
@@ -192,7 +200,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
         const whole failed = open & (length_residual(a, move, rest) >= 4.0f * LENGTH_TOLERANCE);
         if (any_lane(failed))
-            rescue(x, move, pull, rest, failed);
+            kept = rescue(x, predicted, move, pull, rest, tip_mass, failed);
 
 #ifdef CONTACT
         Points walked[NODES];
@@ -207,7 +215,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         const float per_second = 1.0f / h;
         for (int i = 0; i < NODES; ++i)
         {
-            v[i] = times((real)(per_second), move[i]);
+            v[i] = times((real)(per_second), plus(move[1], times(i > 1 ? kept : (real)(1.0f), minus(move[i], move[1]))));
             x[i] = plus(x[i], move[i]);
             tensest = fmax(tensest, fabs(pull[i]));
         }

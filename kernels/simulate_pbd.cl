@@ -12,6 +12,7 @@
 
 #define CLOSING_TURNS 8
 #define MOST_STRETCH 1.005f // of a segment whose stretching is 1
+#define MOST_RUBBER 4.0f    // of one whose stretching is less: without any constraint hair would fall for ever
 
 static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
 {
@@ -122,18 +123,18 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two
     // spheres that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by
     // then. Always as many turns: one strand's need must not change its neighbours' bits.
-    const bool inextensible = params->solver_stretching >= 1.0f;
+    const real most = rest * (params->solver_stretching >= 1.0f ? MOST_STRETCH : MOST_RUBBER);
     for (int i = 2; i < NODES; ++i)
         for (int turns = 0; turns < CLOSING_TURNS; ++turns)
         {
-            if (inextensible && turns < CLOSING_TURNS / 2)
-                limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], rest * MOST_STRETCH);
+            if (turns < CLOSING_TURNS / 2)
+                limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], most);
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
         }
 
-    // A strand that is no longer finite starts again from its rest shape; its neighbours do not notice.
-    whole bad = (whole)(0);
+    // A strand that is not finite, or came in so, starts again from its rest shape; its neighbours do not notice.
+    whole bad = bad_position | bad_motion;
     for (int i = 2; i < NODES; ++i)
         bad |= !(fabs(x[i]) + fabs(y[i]) + fabs(z[i]) < 1e6f);
     for (int i = 2; i < NODES; ++i)

@@ -234,8 +234,8 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
             for (int turns = 0; turns < 8; ++turns)
             {
                 const Vec segment = x[size_t(i)] - x[size_t(i - 1)];
-                const double most = 1.005 * rest, is = glm::length(segment);
-                if (params.solver_stretching >= 1.0f && turns < 4 && is > most)
+                const double most = (params.solver_stretching >= 1.0f ? 1.005 : 4.0) * rest, is = glm::length(segment);
+                if (turns < 4 && is > most)
                     x[size_t(i)] = x[size_t(i - 1)] + segment * (most / is);
                 collide(x.data() + i - 2, 3, colliders); // this node only
             }

@@ -86,24 +86,28 @@ Outcome drag(const Ground& ground)
             params.solver_bending = 0.0f;
             params.bending_droop = 1e4f;
             Trial trial(ground, params, row(16, 16, 0.3, {0.3, -1, 0}));
+            double start = 0.0;
             for (int i = 1; i <= 12; ++i)
+            {
                 trial.step(pose({0.1 * (1.0 - std::cos(0.26 * i)), 0, 0}));
+                start =
+                    std::max(start, 1e-3 * kinetic(ground, trial)); // what pbd's lengths may still right themselves by
+            }
+            const double floor = start;
             trial.rest(2);
-            double energy = kinetic(ground, trial);
-            const double start = energy;
-            for (int i = 0; i < 60; ++i)
+            start = std::max(start, kinetic(ground, trial));
+            double most = 0.0, when = 0.0;
+            for (int i = 1; i <= 60; ++i)
             {
                 trial.rest(1);
-                const double now = kinetic(ground, trial);
-                // Second order: what a step errs by goes to and fro.
-                expect(outcome, now <= 1.05 * energy + 1e-6 * start + 1e-12,
-                       fmt::format("{}: drag {:g}: energy grew by {:.3g} %", kSolvers[kind], b,
-                                   100.0 * (now / energy - 1.0)));
-                energy = now;
+                // Exactly it were exp(-2 b t). Half of that leaves room for what whips err by, to and fro.
+                const double now = kinetic(ground, trial) / std::max(floor, start * std::exp(-double(b) * i / 60.0));
+                when = now > most ? i / 60.0 : when;
+                most = std::max(most, now);
             }
-            if (b >= 1.0f)
-                expect(outcome, energy < 0.5 * start + 1e-9,
-                       fmt::format("{}: drag {:g} takes nothing", kSolvers[kind], b));
+            expect(outcome, most <= 1.1,
+                   fmt::format("{}: drag {:g}: {:.3g} times the energy that may be left after {:.2f} s", kSolvers[kind],
+                               b, most, when));
             judge(outcome, fmt::format("drag of {:g} 1/s", b), trial);
         }
     return outcome;
@@ -151,7 +155,7 @@ Outcome stiffness(const Ground& ground)
         HairParams params = lone(1);
         params.solver_stretching = k;
         // Rubber is long; what it is bounded by is MOST_RUBBER of kernels/simulate_pbd.cl.
-        play_with(outcome, ground, params, fmt::format("stretching {}", k), {.reach = k < 1.0f ? 10.1 : 1.5});
+        play_with(outcome, ground, params, fmt::format("stretching {}", k), {.reach = k < 1.0f ? 4.1 : 1.5});
         params = lone(1);
         params.solver_bending = k;
         play_with(outcome, ground, params, fmt::format("bending {}", k));

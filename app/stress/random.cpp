@@ -56,7 +56,7 @@ Outcome random_styles(const Ground& ground)
             const Figures figures = play(ground, style, motion);
             // Rubber is bounded by MOST_RUBBER of kernels/simulate_pbd.cl.
             judge(one, kind, fmt::format("seed {} style {}", ground.seed, number), figures,
-                  {.reach = style.params.solver_stretching < 1.0f ? 10.1 : 1.5});
+                  {.reach = style.params.solver_stretching < 1.0f ? 4.1 : 1.5});
             for (const std::string& trespass : find_trespasses(ground.device))
                 one.faults.push_back(
                     fmt::format("seed {} style {}, {}: {}", ground.seed, number, kSolvers[kind], trespass));

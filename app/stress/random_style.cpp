@@ -80,8 +80,8 @@ Hairstyle random_style(int seed, int number, const std::string& scalp)
         set_numbers(style.params, info, values);
     }
     // Node counts, with a grid each.
-    const int kinds[][2] = {{3, 8}, {9, 16}, {24, 8}};
-    const auto& [nodes, resolution] = kinds[draw.below(3)];
+    const int kinds[][2] = {{9, 16}, {3, 8}, {24, 8}};
+    const auto& [nodes, resolution] = kinds[number / 20 % 3];
     style.params.strand_nodes = nodes;
     style.params.grid_resolution = resolution;
     style.params.interpolation_strands = draw.below(65);

@@ -129,7 +129,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
     ground.folder = options.output.empty() ? "stress" : options.output;
     ground.seed = wanted.seed;
     ground.quick = wanted.quick;
-    ground.styles = wanted.styles >= 0 ? wanted.styles : wanted.quick ? 40 : 2000;
+    ground.styles = wanted.styles >= 0 ? wanted.styles : wanted.quick ? 20 : 2000;
     ground.soak = wanted.soak > 0.0 ? wanted.soak : wanted.quick ? 10.0 : 600.0;
     std::error_code error;
     std::filesystem::create_directories(ground.folder, error);

@@ -108,7 +108,8 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
             if (stretch > worst.stretch || !std::isfinite(stretch))
                 worst.where = fmt::format("strand {}, node {}, {:.3f} s", g, k, watch.time);
             worst.stretch = std::max(worst.stretch, std::isfinite(stretch) ? stretch : INFINITY);
-            worst.reach = std::max(worst.reach, glm::distance(p, root) / std::max((k - 1) * rest, 1e-6));
+            worst.reach =
+                std::max(worst.reach, (glm::distance(p, root) - 2.0 * out) / std::max((groom.nodes - 2) * rest, 1e-6));
             if (watch.time > grace && !bodies.empty())
             {
                 const double depth = depth_in(bodies, p);

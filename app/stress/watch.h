@@ -14,7 +14,8 @@ struct Figures
 {
     double stretch = 0.0;     // |length / rest - 1| of a segment, less what a float cannot tell
     double penetration = 0.0; // m, of nodes 2 and outwards that could be outside
-    double reach = 0.0;       // at the last look: distance of a node from its root against what lies between
+    double reach = 0.0;       // at the last look: distance of a node from its root, or from the body that holds that,
+                              // against the strand's length
     bool finite = true;
     long resets = 0;
     long looks = 0;
