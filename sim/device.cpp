@@ -152,9 +152,9 @@ try
     // An empty buffer is no buffer for OpenCL; one that can be mapped costs no copy on devices in host memory.
     const bool shared = device.device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>();
     const cl_mem_flags flags = CL_MEM_READ_WRITE | (shared ? CL_MEM_ALLOC_HOST_PTR : 0);
-    const size_t taken = std::max<size_t>(bytes, 16);
     if (!device.guards)
-        return cl::Buffer(device.context, flags, taken);
+        return cl::Buffer(device.context, flags, std::max<size_t>(bytes, 16));
+    const size_t taken = std::max<size_t>(bytes, 1);
     const size_t align = device.device.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8; // of a buffer within a buffer
     const size_t before = (kBand + align - 1) / align * align;
     const size_t after = before;

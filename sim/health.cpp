@@ -67,7 +67,7 @@ std::vector<Reset> find_resets(const Solver& solver, std::vector<int>& seen)
         return found;
     const std::vector<int> faults = solver.faults();
     for (size_t s = 0; s < now.size(); ++s)
-        if (now[s] != seen[s])
+        if (now[s] > seen[s]) // new hair counts from zero again
             found.push_back({int(s), now[s] - seen[s], faults[s]});
     seen = std::move(now);
     return found;

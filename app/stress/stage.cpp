@@ -123,7 +123,7 @@ void judge(Outcome& outcome, int kind, const std::string& what, const Figures& f
         expect(outcome, figures.stretch <= bounds.stretch,
                fmt::format("{}stretch {:.3g} % ({})", who, 100.0 * figures.stretch, figures.where));
         expect(outcome, figures.penetration <= bounds.penetration,
-               fmt::format("{}penetration {:.3g} mm", who, 1e3 * figures.penetration));
+               fmt::format("{}penetration {:.3g} mm ({})", who, 1e3 * figures.penetration, figures.where_inside));
     }
     else
         expect(outcome, figures.reach <= bounds.reach,

@@ -18,6 +18,8 @@ void add(Figures& sum, const Figures& more)
 {
     if (more.stretch > sum.stretch || sum.where.empty())
         sum.where = more.where;
+    if (more.penetration > sum.penetration)
+        sum.where_inside = more.where_inside;
     sum.stretch = std::max(sum.stretch, more.stretch);
     sum.penetration = std::max(sum.penetration, more.penetration);
     sum.reach = std::max(sum.reach, more.reach);
@@ -114,7 +116,10 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
             {
                 const double depth = depth_in(bodies, p);
                 if (depth > worst.penetration && (k - 1) * rest > 1.5 * out + 1e-3 && depth_before < 0.5 * rest)
+                {
                     worst.penetration = depth;
+                    worst.where_inside = fmt::format("strand {}, node {}, {:.3f} s", g, k, watch.time);
+                }
                 depth_before = depth;
             }
             before = p;

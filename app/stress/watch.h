@@ -19,8 +19,8 @@ struct Figures
     bool finite = true;
     long resets = 0;
     long looks = 0;
-    std::string where; // the worst stretch
-    std::string fault; // why a strand was reset, or what was not finite
+    std::string where, where_inside; // the worst stretch and penetration
+    std::string fault;               // why a strand was reset, or what was not finite
 };
 void add(Figures& sum, const Figures& more);
 
