@@ -5,6 +5,7 @@
 #include "app/measure/measure.h"
 #include "app/report.h"
 #include "app/shot.h"
+#include "app/stress/stress.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
@@ -161,6 +162,15 @@ int run_command(int argc, char** argv)
     lab_command->add_option("--set", options.sets, "group.key=value of solver and forces")->allow_extra_args(false);
     lab_command->add_option("-o,--out", options.output, "CSV to write instead of the terminal");
 
+    StressOptions strained;
+    CLI::App* stress_command = with_device(app.add_subcommand("stress", "Play the solvers' extremes"));
+    stress_command->add_flag("--quick", strained.quick, "Less of everything: under a minute");
+    stress_command->add_option("--only", strained.only, "Cases, by name")->delimiter(',');
+    stress_command->add_option("--cases", strained.styles, "Random styles and motions");
+    stress_command->add_option("--seed", strained.seed, "Of what is random")->capture_default_str();
+    stress_command->add_option("--seconds", strained.soak, "Of the soak, simulated");
+    stress_command->add_option("-o,--output", options.output, "Folder for tables, map and what failed (stress)");
+
     // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.
     std::vector<std::string> words(argv + 1, argv + argc);
     bool is_command = !words.empty() && words[0].rfind("-h", 0) != 0 && words[0].rfind("--help", 0) != 0;
@@ -190,6 +200,8 @@ int run_command(int argc, char** argv)
         return lab(options, hung, lab_seconds->count() > 0);
     if (measure_command->parsed())
         return measure(options, measured);
+    if (stress_command->parsed())
+        return run_stress(options, strained);
     if (check_command->parsed())
         return run_check(styles);
     if (keys_command->parsed())

@@ -49,6 +49,7 @@ template <typename Action> void Editor::guarded(Action&& action)
 void Editor::reset_hair()
 {
     guarded([&] { simulation_->reset(); });
+    bad_strand_.clear();
 }
 
 // Into the style, relative to the head: that is where a style's camera is when it is opened.
@@ -363,6 +364,17 @@ void Editor::advance(double seconds)
     step_once_ = false;
 }
 
+// Says which strand was reset, so that its author need not look for it.
+void Editor::note_resets()
+{
+    const std::vector<Reset> found = find_resets(simulation_->solver(), resets_seen_);
+    if (found.empty())
+        return;
+    bad_strand_ = fmt::format("strand {}{} reset in step {}: {}", found.back().strand,
+                              found.size() > 1 ? fmt::format(" and {} more", found.size() - 1) : "",
+                              simulation_->steps(), likely_cause(found.back(), simulation_->solver().info()));
+}
+
 bool Editor::frame()
 {
     SDL_Event event;
@@ -398,6 +410,7 @@ bool Editor::frame()
             pass_ms_ = simulation_->solver().take_times();
             if (frames_ % 8 == 1)
                 health_ = measure_health(simulation_->solver(), style_.params, false);
+            note_resets();
             renderer_->show(frame_input(*simulation_, camera_), view_width_ * pixels_wide / std::max(width, 1),
                             pixels_high);
         });

@@ -43,6 +43,7 @@ class Editor
     bool paused() const { return paused_; }
     double frame_ms() const { return frame_ms_; }
     const std::string& message() const { return message_; }
+    const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
 
@@ -62,6 +63,7 @@ class Editor
     void draw_status();
     void take(const std::filesystem::path& file); // opens without asking
     void reset_hair();
+    void note_resets();
     void keep_view();
     void apply(); // what changed in style_
     void carry_out(const Intent& intent);
@@ -79,6 +81,8 @@ class Editor
     Pose hand_; // where the mouse has brought the head
     PassTimes pass_ms_;
     Health health_;
+    std::vector<int> resets_seen_; // of each guide
+    std::string bad_strand_;       // the last that was reset: which, when and why
     std::string message_, save_as_;
     std::string screenshot_size_ = "as shown";
     Intent intent_;

@@ -140,6 +140,8 @@ void Editor::draw_status()
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
     ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
                 100.0 * health_.stretch_mean);
+    if (!bad_strand_.empty())
+        ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     double sum = 0.0;

@@ -14,6 +14,29 @@
 namespace coif
 {
 
+static constexpr size_t kMostNamed = 100; // of the strands that were reset, the first so many are named
+
+namespace
+{
+struct Bad // a strand that was reset, and when
+{
+    Reset reset;
+    long frame;
+    double time; // s
+    std::string cause;
+};
+} // namespace
+
+static std::string json(const std::vector<Bad>& all)
+{
+    std::vector<std::string> objects;
+    for (const Bad& bad : all)
+        objects.push_back(fmt::format("{{\"strand\": {}, \"frame\": {}, \"time\": {}, \"times\": {}, \"cause\": {}}}",
+                                      bad.reset.strand, bad.frame, json_number(bad.time), bad.reset.times,
+                                      json_text(bad.cause)));
+    return fmt::format("[{}]", fmt::join(objects, ", "));
+}
+
 int report(const Options& options, const ReportOptions& wanted)
 {
     if (!(wanted.fps >= 1.0 && wanted.fps <= 1000.0))
@@ -31,6 +54,8 @@ int report(const Options& options, const ReportOptions& wanted)
     const long frames = std::max(1L, std::lround(options.seconds * wanted.fps));
     const bool progress = isatty(STDERR_FILENO) && frames > 30;
     Health worst;
+    std::vector<int> seen = simulation.solver().resets();
+    std::vector<Bad> bad;
     double stretch_sum = 0.0;
     std::vector<double> frame_ms;
     std::vector<std::pair<std::string, std::vector<double>>> pass_ms;
@@ -51,6 +76,9 @@ int report(const Options& options, const ReportOptions& wanted)
             ms += spent;
         }
         frame_ms.push_back(ms);
+        for (const Reset& reset : find_resets(simulation.solver(), seen))
+            if (bad.size() < kMostNamed)
+                bad.push_back({reset, f, simulation.time(), likely_cause(reset, simulation.solver().info())});
         const Health now = measure_health(simulation.solver(), style.params, true);
         worst.stretch_max = std::max(worst.stretch_max, now.stretch_max);
         worst.penetration_max = std::max(worst.penetration_max, now.penetration_max);
@@ -90,14 +118,16 @@ int report(const Options& options, const ReportOptions& wanted)
         text = fmt::format(
             "{{\"style\": {}, \"motion\": {}, \"device\": {}, \"guides\": {}, \"strands\": {}, \"nodes\": "
             "{}, \"frames\": {}, \"finite\": {}, \"stretch_max\": {}, \"stretch_mean\": {}, \"penetration_max_mm\": "
-            "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"dropped_steps\": {}, \"ms_frame_median\": {}, "
+            "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"bad_strands\": {}, \"dropped_steps\": {}, "
+            "\"ms_frame_median\": {}, "
             "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"quality\": {}, "
             "\"substeps_error_predicted\": {}, \"substeps_error_measured\": {}}}\n",
             json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
             groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
             json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
-            simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "), fmt::join(ran, ", "),
-            simulation.solver().asleep(), json_text(quality.said), json_number(predicted), json_number(time_error));
+            json(bad), simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "),
+            fmt::join(ran, ", "), simulation.solver().asleep(), json_text(quality.said), json_number(predicted),
+            json_number(time_error));
     }
     else
     {
@@ -109,6 +139,11 @@ int report(const Options& options, const ReportOptions& wanted)
                             1e3 * worst.drawn_penetration_max);
         text += fmt::format("  {}, {} strands reset, {} steps dropped\n", worst.finite ? "finite" : "NOT FINITE",
                             reset_count, simulation.dropped());
+        for (size_t i = 0; i < bad.size() && i < 10; ++i)
+            text += fmt::format("    strand {} in frame {} ({:.3f} s): {}\n", bad[i].reset.strand, bad[i].frame,
+                                bad[i].time, bad[i].cause);
+        if (bad.size() > 10)
+            text += fmt::format("    and {} more\n", reset_count - 10);
         text += fmt::format("  {:.2f} ms a frame (median)\n", median(frame_ms));
         for (const auto& [pass, spent] : pass_ms)
             text +=

@@ -195,13 +195,16 @@ static inline void solve_bending(const Factor* f, Points* move)
 // For strands whose length solve failed: over-relaxed sweeps from the prediction, then each node at its length from its
 // parent (Mueller, Kim, Chentanez 2012). Cannot fail: whatever comes in, what goes out is a chain of that length.
 // Not from where the failed solve has left them: that may be anywhere. `predicted` begins with node 2; move holds the
-// prescribed nodes. Returns the strands whose prediction was no number.
+// prescribed nodes. Returns the share of what `move` gives the nodes for velocity, against the root, that they may
+// keep: a projection takes kinetic energy from the prediction and never adds any, but the walk along the strand would,
+// as it throws the outer nodes about. Strands whose prediction was no number join `bad`.
 #define RESCUE_SWEEPS 8
-static inline whole rescue(const Points* x, const Points* predicted, Points* move, real* multiplier, real rest,
-                           whole which)
+static inline real rescue(const Points* x, const Points* predicted, Points* move, real* multiplier, real rest,
+                          float tip_mass, whole which, whole* bad)
 {
     Points q[NODES];
     const Points root = plus(x[1], move[1]);
+    real energy_before = (real)(0.0f), energy = (real)(0.0f);
     q[0] = plus(x[0], move[0]);
     q[1] = root;
     const Points along = minus(q[1], q[0]); // of rest length
@@ -210,7 +213,8 @@ static inline whole rescue(const Points* x, const Points* predicted, Points* mov
     {
         // A prediction farther than two strand lengths from the root says no more than its direction.
         q[k] = plus(x[k], predicted[k]);
-        const Points d = minus(q[k], root);
+        const Points d = minus(q[k], root), u = minus(predicted[k], move[1]);
+        energy_before += (k + 1 < NODES ? 1.0f : tip_mass) * dot_lanes(u, u);
         const real far2 = dot_lanes(d, d), most = 2.0f * (float)(k - 1) * rest;
         const whole far = !(far2 <= most * most), lost = !(far2 < 1e30f);
         const real shorten = most * INVERSE_SQRT(fmax(far2, 1e-12f * rest * rest));
@@ -235,10 +239,14 @@ static inline whole rescue(const Points* x, const Points* predicted, Points* mov
         const whole none = !(squared > 1e-12f * rest * rest);
         const real scale = rest * INVERSE_SQRT(fmax(squared, 1e-12f * rest * rest));
         q[k] = plus(q[k - 1], select_points(times(scale, d), along, none));
-        move[k] = select_points(move[k], minus(q[k], x[k]), which);
+        const Points moved = minus(q[k], x[k]), u = minus(moved, move[1]);
+        energy += (k + 1 < NODES ? 1.0f : tip_mass) * dot_lanes(u, u);
+        move[k] = select_points(move[k], moved, which);
         multiplier[k] = select(multiplier[k], (real)(0.0f), which);
     }
-    return astray & which;
+    *bad |= astray & which;
+    const whole grown = which & !(energy <= energy_before);
+    return select((real)(1.0f), select((real)(0.0f), sqrt(energy_before / energy), energy_before < energy), grown);
 }
 
 #endif

@@ -13,6 +13,10 @@
 #include "direct.h"
 #include "forces.h"
 
+
+
+
+
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
 
@@ -188,6 +192,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         Points predicted[NODES];
         for (int i = 2; i < NODES; ++i)
             predicted[i] = move[i];
+        real kept = (real)(1.0f);
         whole open = (whole)(-1);
         for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
         {
@@ -196,7 +201,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
         const whole failed = open & (length_residual(a, move, rest) >= 4.0f * LENGTH_TOLERANCE);
         if (any_lane(failed))
-            bad |= rescue(x, predicted, move, pull, rest, failed);
+            kept = rescue(x, predicted, move, pull, rest, tip_mass, failed, &bad);
 
 #ifdef CONTACT
         if (near.near_count > 0)
@@ -214,7 +219,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         const float per_second = 1.0f / h;
         for (int i = 0; i < NODES; ++i)
         {
-            v[i] = times((real)(per_second), move[i]);
+            v[i] = times((real)(per_second), plus(move[1], times(i > 1 ? kept : (real)(1.0f), minus(move[i], move[1]))));
             x[i] = plus(x[i], move[i]);
             tensest = fmax(tensest, fabs(pull[i]));
         }

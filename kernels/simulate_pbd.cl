@@ -12,6 +12,7 @@
 
 #define CLOSING_TURNS 8
 #define MOST_STRETCH 1.005f // of a segment whose stretching is 1
+#define MOST_RUBBER 4.0f    // of one whose stretching is less: without any constraint hair would fall for ever
 
 static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
 {
@@ -24,7 +25,7 @@ static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
 kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
                          global const float* root_direction, global const float* segment_length,
                          global const float* gradient, global int* density, global int* resets,
-                         constant float4* colliders, constant HairParams* params, constant StepInfo* info)
+                         global int* faults, constant float4* colliders, constant HairParams* params, constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
     if (strand >= (info->guides + LANES - 1) / LANES * LANES)
@@ -36,12 +37,14 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
     // Where the strand was, carried along rigidly if the head has just jumped.
     real ox[NODES], oy[NODES], oz[NODES];
+    whole bad_position = (whole)(0), bad_motion = (whole)(0); // before the step
     for (int i = 0; i < NODES; ++i)
     {
         ox[i] = LANES_LOAD(position + first + i * 3 * LANES);
         oy[i] = LANES_LOAD(position + first + (i * 3 + 1) * LANES);
         oz[i] = LANES_LOAD(position + first + (i * 3 + 2) * LANES);
         turn(&ox[i], &oy[i], &oz[i], info);
+        bad_position |= !(fabs(ox[i]) + fabs(oy[i]) + fabs(oz[i]) < 1e6f);
     }
 
     // Nodes 0 and 1: the segment under the scalp.
@@ -66,6 +69,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         real vy = LANES_LOAD(velocity + first + (i * 3 + 1) * LANES) - info->head_velocity.y;
         real vz = LANES_LOAD(velocity + first + (i * 3 + 2) * LANES) - info->head_velocity.z;
         turn(&vx, &vy, &vz, info);
+        bad_motion |= !(fabs(vx) + fabs(vy) + fabs(vz) < 1e30f);
         Points f = points((real)(0.0f), (real)(info->gravity), (real)(0.0f));
         const Points at = points(ox[i], oy[i], oz[i]);
 #ifdef WIND
@@ -119,18 +123,18 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two
     // spheres that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by
     // then. Always as many turns: one strand's need must not change its neighbours' bits.
-    const bool inextensible = params->solver_stretching >= 1.0f;
+    const real most = rest * (params->solver_stretching >= 1.0f ? MOST_STRETCH : MOST_RUBBER);
     for (int i = 2; i < NODES; ++i)
         for (int turns = 0; turns < CLOSING_TURNS; ++turns)
         {
-            if (inextensible && turns < CLOSING_TURNS / 2)
-                limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], rest * MOST_STRETCH);
+            if (turns < CLOSING_TURNS / 2)
+                limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], most);
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
         }
 
-    // A strand that is no longer finite starts again from its rest shape; its neighbours do not notice.
-    whole bad = (whole)(0);
+    // A strand that is not finite, or came in so, starts again from its rest shape; its neighbours do not notice.
+    whole bad = bad_position | bad_motion;
     for (int i = 2; i < NODES; ++i)
         bad |= !(fabs(x[i]) + fabs(y[i]) + fabs(z[i]) < 1e6f);
     for (int i = 2; i < NODES; ++i)
@@ -157,11 +161,18 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
                     velocity + first + (i * 3 + 2) * LANES);
     }
 
-    int bad_lanes[WIDTH];
+    int position_lanes[WIDTH], motion_lanes[WIDTH], bad_lanes[WIDTH];
+    LANES_STORE(bad_position, position_lanes);
+    LANES_STORE(bad_motion, motion_lanes);
     LANES_STORE(bad, bad_lanes);
     for (int lane = 0; lane < WIDTH; ++lane)
         if (bad_lanes[lane] && strand + lane < info->guides)
+        {
             atomic_inc(&resets[strand + lane]);
+            faults[strand + lane] = position_lanes[lane] ? FAULT_POSITION
+                                    : motion_lanes[lane] ? FAULT_VELOCITY
+                                                         : FAULT_FORCES;
+        }
 
 #ifdef DENSITY
     if (info->last_substep)

@@ -3,6 +3,8 @@
 #include "sim/error.h"
 #include "sim/source.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 
 namespace coif
@@ -77,6 +79,9 @@ catch (const cl::Error& e)
 
 Kernel load_kernel(const Device& device, const std::string& file, const std::string& options)
 {
+    const std::string known = file + " " + options;
+    if (device.built && device.built->contains(known))
+        return device.built->at(known);
     const std::filesystem::path path = device.kernel_folder / (file + ".cl");
     cl::Program program(device.context, load_source(path));
     try
@@ -109,6 +114,8 @@ Kernel load_kernel(const Device& device, const std::string& file, const std::str
         throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(), kernel.name, e.err(),
                    e.what());
     }
+    if (device.built)
+        device.built->emplace(known, kernel);
     return kernel;
 }
 
@@ -131,6 +138,10 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {} in kernel {}", e.err(), e.what(), kernel.name);
 }
 
+// Bytes of a guard's band, and what they hold: no number that a kernel would write.
+static constexpr size_t kBand = 4096;
+static constexpr uint8_t kUntouched = 0xa7;
+
 cl::Buffer allocate(const Device& device, size_t bytes, const std::string& purpose)
 try
 {
@@ -140,13 +151,53 @@ try
                    bytes >> 20, limit >> 20, device.name);
     // An empty buffer is no buffer for OpenCL; one that can be mapped costs no copy on devices in host memory.
     const bool shared = device.device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>();
-    return cl::Buffer(device.context, CL_MEM_READ_WRITE | (shared ? CL_MEM_ALLOC_HOST_PTR : 0),
-                      std::max<size_t>(bytes, 16));
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (shared ? CL_MEM_ALLOC_HOST_PTR : 0);
+    if (!device.guards)
+        return cl::Buffer(device.context, flags, std::max<size_t>(bytes, 16));
+    const size_t taken = std::max<size_t>(bytes, 1);
+    const size_t align = device.device.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8; // of a buffer within a buffer
+    const size_t before = (kBand + align - 1) / align * align;
+    const size_t after = before;
+    cl::Buffer whole(device.context, flags, before + taken + after);
+    device.queue.enqueueFillBuffer(whole, kUntouched, 0, before);
+    device.queue.enqueueFillBuffer(whole, kUntouched, before + taken, after);
+    device.guards->bands.push_back({whole, before, taken, after, purpose});
+    const cl_buffer_region region = {before, taken};
+    return whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
 }
 catch (const cl::Error& e)
 {
     throw fail("{} takes {} MB, which {} cannot give (OpenCL error {}); draw fewer strands or nodes", purpose,
                bytes >> 20, device.name, e.err());
+}
+
+std::vector<std::string> find_trespasses(const Device& device)
+{
+    std::vector<std::string> found;
+    if (!device.guards)
+        return found;
+    std::vector<uint8_t> band;
+    for (const Guards::Band& b : device.guards->bands)
+        for (const bool behind : {false, true})
+        {
+            const size_t begin = behind ? b.before + b.bytes : 0, size = behind ? b.after : b.before;
+            band.resize(size);
+            device.queue.enqueueReadBuffer(b.whole, CL_TRUE, begin, size, band.data());
+            const auto touched = [](uint8_t byte) { return byte != kUntouched; };
+            const auto first = std::find_if(band.begin(), band.end(), touched);
+            if (first == band.end())
+                continue;
+            const auto last = std::find_if(band.rbegin(), band.rend(), touched).base();
+            found.push_back(fmt::format("{} bytes {} the {} bytes of {} were written to",
+                                        behind ? last - band.begin() : band.end() - first, behind ? "behind" : "before",
+                                        b.bytes, b.purpose));
+            device.queue.enqueueFillBuffer(b.whole, kUntouched, begin, size);
+        }
+    device.queue.finish();
+    // A buffer within it would hold the whole one too.
+    std::erase_if(device.guards->bands,
+                  [](const Guards::Band& b) { return b.whole.getInfo<CL_MEM_REFERENCE_COUNT>() <= 1; });
+    return found;
 }
 
 Mapped::Mapped(const Device& device, const cl::Buffer& buffer, size_t bytes)

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,18 @@ struct Kernel
     std::vector<std::string> arguments;
 };
 
+// Bands before and behind every buffer that nothing may write to: what a kernel does outside of a buffer is seen.
+struct Guards
+{
+    struct Band
+    {
+        cl::Buffer whole; // band, buffer, band
+        size_t before, bytes, after;
+        std::string purpose;
+    };
+    std::vector<Band> bands;
+};
+
 // One OpenCL device with an in-order queue.
 struct Device
 {
@@ -35,6 +48,9 @@ struct Device
     // Strands a work-item moves at once. A rule, not a measurement, so that the same device gives the same bytes: 16 on
     // CPUs whose native float vector is 16 wide, 8 on other CPUs, 1 on GPUs (a work-item a strand, coalesced).
     int width = 1;
+    std::shared_ptr<Guards> guards; // of the buffers allocated from now on; none: they have no bands
+    // Kernels that were built, by file and options, for those who make many solvers of few kinds; none: each its own.
+    std::shared_ptr<std::map<std::string, Kernel>> built;
 };
 
 // The device that `wish` names: "cpu", "gpu", a part of a device's name, or "" for the first GPU and else the first
@@ -50,6 +66,10 @@ cl::Event run(const Device& device, Kernel& kernel, const Buffers& buffers, cl::
 
 // Throws Error when the device does not take buffers of that size.
 cl::Buffer allocate(const Device& device, size_t bytes, const std::string& purpose);
+
+// What has been written outside of the guarded buffers since last asked, a sentence each. Waits for the device, mends
+// the bands, and lets go of those whose buffer is gone.
+std::vector<std::string> find_trespasses(const Device& device);
 
 template <typename T> void write(const Device& device, const cl::Buffer& to, const std::vector<T>& from)
 {

@@ -1,5 +1,6 @@
 #include "sim/health.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -55,6 +56,35 @@ Health measure_health(const Solver& solver, const HairParams& params, bool drawn
             health.drawn_penetration_max = std::max(health.drawn_penetration_max, depth_in(colliders, {p.x, p.y, p.z}));
         }
     return health;
+}
+
+std::vector<Reset> find_resets(const Solver& solver, std::vector<int>& seen)
+{
+    std::vector<int> now = solver.resets();
+    seen.resize(now.size());
+    std::vector<Reset> found;
+    if (now == seen)
+        return found;
+    const std::vector<int> faults = solver.faults();
+    for (size_t s = 0; s < now.size(); ++s)
+        if (now[s] > seen[s]) // new hair counts from zero again
+            found.push_back({int(s), now[s] - seen[s], faults[s]});
+    seen = std::move(now);
+    return found;
+}
+
+std::string likely_cause(const Reset& reset, const StepInfo& info)
+{
+    if (reset.fault == FAULT_POSITION)
+        return "a position was not a number before the step, or 1000 km away: memory was written to from outside";
+    if (reset.fault == FAULT_VELOCITY)
+        return "a velocity or tension was not a number before the step: memory was written to from outside";
+    const double gravity = std::abs(double(info.gravity));
+    const double wind = double(info.wind.w) * (1.0 + double(info.gust_origin.w));
+    const double head = std::max(0.0, double(info.acceleration) - gravity - wind); // only the direct solver is told
+    const char* strongest = wind >= gravity && wind >= head ? "the wind" : gravity >= head ? "gravity" : "the head";
+    return fmt::format("its forces flung it away or were not finite; the strongest was {}, {:.3g} m/s^2", strongest,
+                       std::max({gravity, wind, head}));
 }
 
 } // namespace coif

@@ -63,6 +63,7 @@ class Solver
     std::vector<int> faults() const;        // of each guide: why it was last reset, FAULT_* of kernels/shared.h
     bool has_shadow() const;
 
+    const Device& device() const { return device_; }
     const Groom& groom() const { return groom_; }
     const StepInfo& info() const { return info_; }
     const Pose& head() const { return head_; }

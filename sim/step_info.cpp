@@ -104,9 +104,11 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.drag_keep = float(std::exp(-b * h));
     info.drag_gain = float(b * h > 1e-6 ? -std::expm1(-b * h) / b : h);
     info.gravity = float(-kGravity * params.forces_gravity);
-    const double sweeps = params.solver_iterations;
-    info.stretch = float(1.0 - std::pow(1.0 - double(params.solver_stretching), 1.0 / sweeps)); // eq. 5.5
-    info.bend = float(1.0 - std::pow(1.0 - double(params.solver_bending), 1.0 / sweeps));
+    // Strengths beyond what there is count as the nearest that there is: their power would be no number.
+    const auto of_a_sweep = [sweeps = std::max(1, params.solver_iterations)](float strength) // eq. 5.5
+    { return float(1.0 - std::pow(1.0 - std::clamp(double(strength), 0.0, 1.0), 1.0 / sweeps)); };
+    info.stretch = of_a_sweep(params.solver_stretching);
+    info.bend = of_a_sweep(params.solver_bending);
     const double links = groom.nodes - 2;
     info.relax =
         params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;

@@ -107,7 +107,8 @@ Density add_density(const Strands& strands, int resolution, const StepInfo& info
     const size_t voxels = size_t(resolution) * size_t(resolution) * size_t(resolution);
     Density density{std::vector<double>(voxels), std::vector<int>(voxels)};
     for (int s = 0; s < strands.count(); ++s)
-        // Node 1 and every stride-th after it, moved outwards by the golden section of the stride from strand to strand.
+        // Node 1 and every stride-th after it, moved outwards by the golden section of the stride from strand to
+        // strand.
         for (int k = 1 + int(std::fmod(s * 0.6180339887498949, 1.0) * info.density_stride); k < strands.nodes;
              k += info.density_stride)
             trilinear(strands.position[size_t(s * strands.nodes + k)], resolution, info,
@@ -240,8 +241,8 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
             for (int turns = 0; turns < 8; ++turns)
             {
                 const Vec segment = x[size_t(i)] - x[size_t(i - 1)];
-                const double most = 1.005 * rest, is = glm::length(segment);
-                if (params.solver_stretching >= 1.0f && turns < 4 && is > most)
+                const double most = (params.solver_stretching >= 1.0f ? 1.005 : 4.0) * rest, is = glm::length(segment);
+                if (turns < 4 && is > most)
                     x[size_t(i)] = x[size_t(i - 1)] + segment * (most / is);
                 collide(x.data() + i - 2, 3, colliders); // this node only
             }

@@ -350,9 +350,17 @@ static void shake(Strand& strand, const std::vector<Vec>& a, std::vector<Vec>& m
 // From the prediction: nodes farther than twice their place along the strand are fetched to there, over-relaxed sweeps
 // with every second segment at once, then each node at its length from its parent (Mueller, Kim, Chentanez 2012).
 // Returns whether the prediction was a number.
-static bool rescue(Strand& strand, std::vector<Vec>& move, const Rounder& round)
+static bool rescue(Strand& strand, std::vector<Vec>& move, double tip_mass, double& kept, const Rounder& round)
 {
     const int n = strand.n;
+    const auto energy = [&]
+    {
+        double sum = 0.0;
+        for (int k = 2; k < n; ++k)
+            sum += (k + 1 < n ? 1.0 : tip_mass) * glm::dot(move[size_t(k)] - move[1], move[size_t(k)] - move[1]);
+        return sum;
+    };
+    const double predicted = energy();
     std::vector<Vec> q;
     for (int k = 0; k < n; ++k)
         q.push_back(strand.x[size_t(k)] + move[size_t(k)]);
@@ -387,6 +395,9 @@ static bool rescue(Strand& strand, std::vector<Vec>& move, const Rounder& round)
         move[size_t(k)] = q[size_t(k)] - strand.x[size_t(k)];
         strand.pull[size_t(k)] = 0.0;
     }
+    // Of the velocity against the root: a projection adds no kinetic energy.
+    const double is = energy();
+    kept = is <= predicted ? 1.0 : predicted < is ? std::sqrt(predicted / is) : 0.0;
     return sound;
 }
 
@@ -485,7 +496,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     constexpr double kTolerance = 5e-4;
     const std::vector<Vec> predicted = move;
     bool sound = true;
-    double residual = INFINITY;
+    double residual = INFINITY, kept = 1.0;
     for (int newton = 0; newton < 3 && residual >= kTolerance; ++newton)
     {
         shake(strand, a, move, h * drag.gain, step.tip_mass, round);
@@ -494,7 +505,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     if (residual >= 4.0 * kTolerance)
     {
         move = predicted;
-        sound = rescue(strand, move, round);
+        sound = rescue(strand, move, step.tip_mass, kept, round);
     }
     if (!step.bodies.empty())
     {
@@ -507,7 +518,8 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     }
     for (size_t i = 0; i < size_t(n); ++i)
     {
-        strand.v[i] = move[i] / h + round(2.0 * glm::length(move[i]) / h);
+        strand.v[i] =
+            (move[1] + (i > 1 ? kept : 1.0) * (move[i] - move[1])) / h + round(2.0 * glm::length(move[i]) / h);
         strand.x[i] += move[i] + round(glm::length(strand.x[i]) + glm::length(move[i]));
     }
     return sound;

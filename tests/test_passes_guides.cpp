@@ -94,6 +94,7 @@ class SimulatePass : public testing::TestWithParam<Case>
                 {"gradient", filled(device, slopes)},
                 {"density", filled(device, std::vector<int>(gradient.size(), 0))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
+                {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"colliders", filled(device, colliders)},
                 {"params", filled(device, params)},
                 {"info", filled(device, info)}};
