@@ -176,21 +176,25 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
                               INVERSE_SQRT(fmax(dot_lanes(t, t), (real)(1e-30f)));
             const Points moved =
                 points(flat * t.x - height * n.x, flat * t.y - height * n.y, flat * t.z - height * n.z);
+            d = select_points(d, moved, in);
             // In a crease one body leads into another, to and fro: where both their planes and the length meet.
-            const real offset = along - gap, both = dot_lanes(last_n, n), spread = 1.0f - both * both;
-            const real per_spread = 1.0f / fmax(spread, (real)(1e-3f));
-            const real on_last = (last_offset - both * offset) * per_spread,
-                       on_this = (offset - both * last_offset) * per_spread;
-            const Points base = points(on_last * last_n.x + on_this * n.x, on_last * last_n.y + on_this * n.y,
-                                       on_last * last_n.z + on_this * n.z);
-            Points edge = points(last_n.y * n.z - last_n.z * n.y, last_n.z * n.x - last_n.x * n.z,
-                                 last_n.x * n.y - last_n.y * n.x);
-            const real left = rest * rest - dot_lanes(base, base);
-            real along_edge = sqrt(fmax(left, (real)(0.0f)) * per_spread);
-            along_edge = select(along_edge, -along_edge, dot_lanes(edge, d) < 0.0f);
-            edge = points(base.x + along_edge * edge.x, base.y + along_edge * edge.y, base.z + along_edge * edge.z);
-            const whole crease = was_in & (spread > 1e-3f) & (left > 0.0f);
-            d = select_points(d, select_points(moved, edge, crease), in);
+            const real offset = along - gap;
+            if (any_lane(in & was_in))
+            {
+                const real both = dot_lanes(last_n, n), spread = 1.0f - both * both;
+                const real per_spread = 1.0f / fmax(spread, (real)(1e-3f));
+                const real on_last = (last_offset - both * offset) * per_spread,
+                           on_this = (offset - both * last_offset) * per_spread;
+                const Points base = points(on_last * last_n.x + on_this * n.x, on_last * last_n.y + on_this * n.y,
+                                           on_last * last_n.z + on_this * n.z);
+                const Points edge = points(last_n.y * n.z - last_n.z * n.y, last_n.z * n.x - last_n.x * n.z,
+                                           last_n.x * n.y - last_n.y * n.x);
+                const real left = rest * rest - dot_lanes(base, base);
+                real way = sqrt(fmax(left, (real)(0.0f)) * per_spread);
+                way = select(way, -way, dot_lanes(edge, d) < 0.0f);
+                d = select_points(d, points(base.x + way * edge.x, base.y + way * edge.y, base.z + way * edge.z),
+                                  in & was_in & (spread > 1e-3f) & (left > 0.0f));
+            }
             last_n = n;
             last_offset = offset;
             was_in = in;

@@ -1,6 +1,7 @@
 // The stress suite itself: that it runs, covers what it says, and fails when something is wrong. And what it has found,
 // each as a case of its own.
 #include "app/stress/random_style.h"
+#include "app/stress/stage.h"
 #include "sim/health.h"
 #include "sim/source.h"
 #include "tests/rig.h"
@@ -66,7 +67,7 @@ class Stress : public testing::Test
 
 TEST_F(Stress, RunsCasesByNameAndWritesTables)
 {
-    ASSERT_EQ(coif("stress --quick --only bad-input,teleport,random --cases 2 -o out"), 0)
+    ASSERT_EQ(coif("stress --quick --only bad-input,teleport,random --cases 1 --seed 37 -o out"), 0)
         << contents(folder / "out.txt");
     const std::string csv = contents(folder / "out/stress.csv"), json = contents(folder / "out/stress.json");
     EXPECT_EQ(csv.rfind("case,solver,passed,", 0), 0u);
@@ -75,7 +76,7 @@ TEST_F(Stress, RunsCasesByNameAndWritesTables)
     EXPECT_NE(json.find("\"case\": \"bad-input\""), json.npos);
     EXPECT_NE(contents(folder / "out.txt").find("3 of 3 cases passed"), std::string::npos);
     const std::string random = contents(folder / "out/random.csv");
-    EXPECT_EQ(std::count(random.begin(), random.end(), '\n'), 5) << "two styles by two solvers";
+    EXPECT_EQ(std::count(random.begin(), random.end(), '\n'), 3) << "one style by two solvers";
     EXPECT_EQ(coif("stress --only nonsense"), 1);
     EXPECT_NE(contents(folder / "err.txt").find("nonsense"), std::string::npos);
 }
@@ -83,13 +84,13 @@ TEST_F(Stress, RunsCasesByNameAndWritesTables)
 TEST_F(Stress, ASolverThatStretchesFailsItAndLeavesWhatPlaysItAgain)
 {
     const fs::path data = changed_data("simulate_direct.cl", "x[i] = plus(x[i], move[i]);",
-                                       "x[i] = plus(x[i], times((real)(i == 5 ? 1.1f : 1.0f), move[i]));");
-    EXPECT_EQ(coif("stress --only random --cases 1 --seed 3 -o out", data), 1);
+                                       "x[i] = plus(x[i], move[i]); x[i].y += i == 5 ? 0.1f * rest : 0.0f * rest;");
+    EXPECT_EQ(coif("stress --only random --cases 1 --seed 45 -o out", data), 1);
     EXPECT_NE(contents(folder / "out.txt").find("FAIL"), std::string::npos);
-    EXPECT_NE(contents(folder / "out.txt").find("again: coif report out/random/3-0-direct.toml"), std::string::npos)
+    EXPECT_NE(contents(folder / "out.txt").find("again: coif report out/random/45-0-direct.toml"), std::string::npos)
         << contents(folder / "out.txt");
-    EXPECT_EQ(coif("report out/random/3-0-direct.toml --motion out/random/3-0-direct-motion.toml --seconds 0.2", data),
-              0)
+    EXPECT_EQ(
+        coif("report out/random/45-0-direct.toml --motion out/random/45-0-direct-motion.toml --seconds 0.2", data), 0)
         << contents(folder / "err.txt");
 }
 
@@ -216,6 +217,23 @@ TEST_F(Stress, WhatRescuesAStrandAddsNoEnergy)
     heavy.rest(120);
     EXPECT_LT(heavy.positions()[15].y, -0.29);
     EXPECT_LT(heavy.worst_stretch(), 0.01);
+}
+
+// Bodies that sweep hair into the creases between them: nearest body after nearest body goes to and fro there.
+TEST_F(Stress, InTheCreaseBetweenTwoBodiesHairIsOutsideOfBoth)
+{
+    HairParams params = uncoupled();
+    params.bending_droop = 1e4f;
+    const std::vector<Collider> bodies = {
+        {{0, 0, 0}, 0.1f, true}, {{0.3f, -0.05f, 0}, 0.1f, false}, {{0, 0.05f, -0.3f}, 0.1f, true}};
+    Rig rig(params, stress::ball(32, 9, 0.25));
+    rig.solver.set_colliders(bodies);
+    for (int i = 1; i <= 60; ++i)
+    {
+        rig.step(pose({0, 0, 0}, 0.436 * i)); // 25 degrees
+        EXPECT_LT(i < 30 ? 0.0 : measure_health(rig.solver, params, false).penetration_max, 1e-4) << i;
+    }
+    EXPECT_LT(rig.worst_stretch(), 0.01);
 }
 
 TEST_F(Stress, PbdIsBoundedWithoutAnyStretchingAndTakesStrengthsBeyondItsEnds)

@@ -160,6 +160,14 @@ Outcome overlap(const Ground& ground)
         play("a squeeze", {{{-0.2f, -0.2f, 0}, 0.18f, false}, {{0.2f, -0.2f, 0}, 0.18f, false}}, 0.1);
         play("dust", {{{0.1f, -0.1f, 0}, 1e-5f, true}, {{0, -0.15f, 0}, 0.0f, true}}, 0.1);
 
+        // Bodies that sweep hair into the creases between them.
+        Trial swept(ground, lone(kind), ball(32, 9, 0.25),
+                    {{{0, 0, 0}, 0.1f, true}, {{0.3f, -0.05f, 0}, 0.1f, false}, {{0, 0.05f, -0.3f}, 0.1f, true}});
+        for (int i = 1; i <= 60; ++i)
+            swept.step(pose({0, 0, 0}, 0.436 * i));
+        swept.rest(60);
+        judge(outcome, "a spin among bodies", swept);
+
         Trial held(ground, lone(kind), row(16, 16, 0.3, {0, -1, 0})); // a node at the very centre
         const glm::vec3 node(held.nodes()[9]);
         held.solver.set_colliders({{node, 0.03f, true}});

@@ -69,8 +69,12 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
     const float* x = view.as<float>();
     Figures& worst = watch.worst;
     const bool first = watch.grace.size() != size_t(groom.guides);
-    const bool jumped = watch.jumped != solver.jumped();
+    // A teleport takes hair into whatever stands there; one that turns the head leaves its origin.
+    const glm::dquat turn = solver.head().turn;
+    const bool jumped = watch.jumped != solver.jumped() || solver.info().teleport ||
+                        std::abs(glm::dot(turn, watch.turn)) < std::cos(0.7);
     watch.jumped = solver.jumped();
+    watch.turn = turn;
     watch.grace.resize(size_t(groom.guides));
     watch.root_out.resize(size_t(groom.guides));
     watch.time += seconds;

@@ -1,6 +1,7 @@
 #pragma once
 #include "sim/solver.h"
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include <string>
@@ -33,6 +34,7 @@ struct Watch
     std::vector<double> root_out; // m, of each guide: way of its root out of the bodies
     double time = 0.0;
     glm::dvec3 jumped{0.0};
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
 };
 
 // Hair that starts inside of bodies leaves them at a bounded speed (kPushOut of sim/step_info.cpp), and a node whose
