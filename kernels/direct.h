@@ -194,25 +194,29 @@ static inline void solve_bending(const Factor* f, Points* move)
 
 // For strands whose length solve failed: over-relaxed sweeps from the prediction, then each node at its length from its
 // parent (Mueller, Kim, Chentanez 2012). Cannot fail: whatever comes in, what goes out is a chain of that length.
-// x and move hold the prescribed nodes and the predictions.
+// Not from where the failed solve has left them: that may be anywhere. `predicted` begins with node 2; move holds the
+// prescribed nodes. Returns the strands whose prediction was no number.
 #define RESCUE_SWEEPS 8
-static inline void rescue(const Points* x, Points* move, real* multiplier, real rest, whole which)
+static inline whole rescue(const Points* x, const Points* predicted, Points* move, real* multiplier, real rest,
+                           whole which)
 {
     Points q[NODES];
     const Points root = plus(x[1], move[1]);
     q[0] = plus(x[0], move[0]);
     q[1] = root;
     const Points along = minus(q[1], q[0]); // of rest length
+    whole astray = (whole)(0);
     for (int k = 2; k < NODES; ++k)
     {
         // A prediction farther than two strand lengths from the root says no more than its direction.
-        q[k] = plus(x[k], move[k]);
+        q[k] = plus(x[k], predicted[k]);
         const Points d = minus(q[k], root);
         const real far2 = dot_lanes(d, d), most = 2.0f * (float)(k - 1) * rest;
         const whole far = !(far2 <= most * most), lost = !(far2 < 1e30f);
         const real shorten = most * INVERSE_SQRT(fmax(far2, 1e-12f * rest * rest));
         q[k] = select_points(q[k], plus(root, times(shorten, d)), far);
         q[k] = select_points(q[k], plus(root, times((real)((float)(k - 1)), along)), lost);
+        astray |= lost;
     }
     for (int sweep = 0; sweep < 2 * RESCUE_SWEEPS; ++sweep)
         for (int k = 2 + (sweep & 1); k < NODES; k += 2)
@@ -234,6 +238,7 @@ static inline void rescue(const Points* x, Points* move, real* multiplier, real 
         move[k] = select_points(move[k], minus(q[k], x[k]), which);
         multiplier[k] = select(multiplier[k], (real)(0.0f), which);
     }
+    return astray & which;
 }
 
 #endif

@@ -88,11 +88,13 @@ typedef struct StepInfo
 // and what drag leaves of the velocity, for each pace before and now.
 #define MOST_SUBSTEPS 16
 #define PACES 5
+#define DRAG_WITHIN (PACES + 1)
 typedef struct StepPath
 {
     float4
         row[3 * (MOST_SUBSTEPS + 1)]; // rows of its rotation; w: its origin along that axis, against the step's begin
-    float4 drag[(PACES + 1) * PACES]; // [0: at the start; else 1 + halvings before][halvings now]: keep, gain (s)
+    // keep, gain (s): [0: at the start; 1 + halvings of the last step; DRAG_WITHIN: of this one][halvings now]
+    float4 drag[(PACES + 2) * PACES];
 } StepPath;
 
 // Why a strand was reset.

@@ -108,7 +108,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     float weight[NODES];
     element_weights(params->bending_attenuation, weight);
     Factor factor;
-    factor_bending(&factor, weight, stiffness * (h * path->drag[5 * (level + 1) + level].y), tip_mass);
+    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass);
 #endif
 #ifdef CONTACT
     Bodies near;
@@ -134,11 +134,12 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #endif
 
     real tensest = (real)(0.0f);
+    whole bad = (whole)(0);
     for (int substep = 0; substep < substeps; ++substep)
     {
         const int sixteenths = MOST_SUBSTEPS >> level;
         const HeadPose last = head_pose(path, substep * sixteenths), now = head_pose(path, (substep + 1) * sixteenths);
-        const float4 drag = path->drag[5 * (substep ? level + 1 : before) + level];
+        const float4 drag = path->drag[PACES * (substep ? DRAG_WITHIN : before) + level];
         const float keep = drag.x, hg = h * drag.y;
 
         // Nodes 0 and 1: the segment under the scalp.
@@ -184,6 +185,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
 #endif
 
+        Points predicted[NODES];
+        for (int i = 2; i < NODES; ++i)
+            predicted[i] = move[i];
         whole open = (whole)(-1);
         for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
         {
@@ -192,7 +196,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
         const whole failed = open & (length_residual(a, move, rest) >= 4.0f * LENGTH_TOLERANCE);
         if (any_lane(failed))
-            rescue(x, move, pull, rest, failed);
+            bad |= rescue(x, predicted, move, pull, rest, failed);
 
 #ifdef CONTACT
         if (near.near_count > 0)
@@ -216,7 +220,6 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
     }
 
-    whole bad = (whole)(0);
     for (int i = 2; i < NODES; ++i)
         bad |= !(fabs(x[i].x) + fabs(x[i].y) + fabs(x[i].z) < 1e6f);
     if (any_lane(bad))

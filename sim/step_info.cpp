@@ -170,11 +170,15 @@ StepPath make_step_path(const HairParams& params, const Pose& before, const Subs
             path.row[3 * i + axis].w = float(origin[axis]);
         }
     }
-    for (int from = 0; from <= PACES; ++from)
+    for (int from = 0; from <= DRAG_WITHIN; ++from)
         for (int to = 0; to < PACES; ++to)
-            path.drag[PACES * from + to] =
-                drag_between(params.forces_drag, from ? seconds_before / double(1 << (from - 1)) : 0.0,
-                             double(now.seconds) / double(1 << to));
+        {
+            const double h = double(now.seconds) / double(1 << to);
+            const double h_before = from == 0             ? 0.0
+                                    : from == DRAG_WITHIN ? h // steps need not be equally long
+                                                          : seconds_before / double(1 << (from - 1));
+            path.drag[PACES * from + to] = drag_between(params.forces_drag, h_before, h);
+        }
     return path;
 }
 

@@ -50,11 +50,15 @@ static double noise(Vec at, uint32_t component)
     return sum;
 }
 
-static Vec wind_force(Vec at, Vec tangent, const StepInfo& info)
+Vec wind_at(Vec at, const StepInfo& info)
 {
     const Vec p = at / 0.15 + xyz(info.gust_origin);
     const Vec gusts(noise(p, 0), noise(p, 1), noise(p, 2));
-    const Vec w = xyz(info.wind) + double(info.wind.w) * info.gust_origin.w * gusts;
+    return xyz(info.wind) + double(info.wind.w) * info.gust_origin.w * gusts;
+}
+
+Vec across_wind(Vec w, Vec tangent)
+{
     const double size = glm::length(w) * glm::length(tangent);
     if (size < 1e-12)
         return Vec(0.0);
@@ -89,7 +93,7 @@ template <typename Visit> static void trilinear(Vec p, int resolution, const Ste
                                                                      (1.0 - std::abs(g.z - (z + k))));
 }
 
-static Vec repulsion_force(Vec at, const std::vector<Vec>& gradient, int resolution, const StepInfo& info)
+Vec repulsion_force(Vec at, const std::vector<Vec>& gradient, int resolution, const StepInfo& info)
 {
     Vec slope(0.0);
     trilinear(at, resolution, info, [&](size_t voxel, double weight) { slope += weight * gradient[voxel]; });
@@ -220,8 +224,8 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
             Vec velocity = carried(strands.velocity[size_t(s * n + i)] - head_velocity) + head_velocity;
             Vec force(0.0, info.gravity, 0.0);
             if (forces.wind)
-                force +=
-                    wind_force(before[size_t(i)], before[size_t(std::min(i + 1, n - 1))] - before[size_t(i - 1)], info);
+                force += across_wind(wind_at(before[size_t(i)], info),
+                                     before[size_t(std::min(i + 1, n - 1))] - before[size_t(i - 1)]);
             if (forces.repulsion)
                 force += repulsion_force(before[size_t(i)], gradient, resolution, info);
             // Exact for a force that does not change: dv/dt = a - b v.

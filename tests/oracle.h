@@ -40,6 +40,12 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
                   const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
                   const std::function<Vec()>& rounding = {});
 
+// Accelerations, m/s^2: the wind with its gusts at a point, what of it acts on a strand of this tangent (eq. 5.2), and
+// what crowded hair adds.
+Vec wind_at(Vec at, const StepInfo& info);
+Vec across_wind(Vec wind, Vec tangent);
+Vec repulsion_force(Vec at, const std::vector<Vec>& gradient, int resolution, const StepInfo& info);
+
 // Nodes 1 and outwards, or of many strands an even part of them, shared out over eight voxels each, thesis 5.1.3. Not
 // rounded; `shares` counts the nodes that had
 // a share in a voxel, each of which may be rounded by a half.

@@ -1,0 +1,419 @@
+// simulate_direct against its double-precision twin, one step at a time, from states of every kind.
+#include "sim/error.h"
+#include "tests/on_device.h"
+#include "tests/oracle_direct.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+using oracle::Vec;
+
+struct Case
+{
+    const char* name;
+    int width, nodes, strands;
+    bool bending, curled, wind, repulsion, contact, teleport;
+    void (*change)(HairParams&);
+    double seconds_before = 1.0 / 60.0;
+    bool density() const { return repulsion; }
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+glm::dvec3 rounded(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
+
+class DirectPass : public testing::TestWithParam<Case>
+{
+  protected:
+    void SetUp() override
+    {
+        const Case& c = GetParam();
+        HairParams& params = step.params;
+        params.strand_nodes = c.nodes;
+        params.grid_resolution = 20;
+        params.forces_wind = c.wind ? F4(9.0f, -2.0f, 4.0f, 0.0f) : F4(0.0f, 0.0f, 0.0f, 0.0f);
+        params.forces_repulsion = c.repulsion ? 2.0f : 0.0f;
+        if (c.change)
+            c.change(params);
+        params = device_params(params);
+        groom = random_groom(random, c.strands, c.nodes, 10);
+
+        step.bending = c.bending;
+        step.curled = c.curled;
+        step.wind = c.wind;
+        step.repulsion = c.repulsion;
+        step.before.origin = random.vector(2.0);
+        step.before.turn = glm::angleAxis(random.in(-3.0, 3.0), random.direction());
+        step.now.head.origin = step.before.origin + random.vector(c.teleport ? 5.0 : 0.01);
+        step.now.head.turn = glm::angleAxis(c.teleport ? 2.0 : 0.03, random.direction()) * step.before.turn;
+        step.now.time = 3.7;
+        step.head_velocity = {0.4, -0.2, 0.7};
+        step.seconds_before = c.seconds_before;
+        step.tip_mass = groom.tip_mass;
+        step.reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
+        if (c.contact)
+            step.bodies = {{glm::dvec3(groom.center), 0.1f, true}};
+        for (int i = 0; c.contact && i < 6; ++i)
+            step.bodies.push_back(
+                {rounded(0.15 * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f, i % 2 == 1});
+        step.info =
+            make_step_info(params, groom, step.before, step.head_velocity, step.now, int(step.bodies.size()), true);
+        step.teleport = step.info.teleport;
+        ASSERT_EQ(step.teleport, c.teleport);
+        path = make_step_path(params, step.before, step.now, step.teleport, step.seconds_before);
+        set_direct(step.info, path, groom,
+                   int(std::count_if(step.bodies.begin(), step.bodies.end(),
+                                     [](const oracle::Sphere& s) { return s.on_head; })));
+        const size_t voxels = 20 * 20 * 20;
+        for (size_t i = 0; c.repulsion && i < voxels; ++i)
+            step.gradient.push_back(rounded(random.vector(3.0 * 4096.0)));
+        make_state();
+    }
+
+    // Chains of their length, bent and on the move, some wildly; tensions for every number of substeps, after every
+    // other.
+    void make_state()
+    {
+        const Case& c = GetParam();
+        state.nodes = c.nodes;
+        state.root_position = from_blocks(groom.root_position, c.strands, 1);
+        state.root_direction = from_blocks(groom.root_direction, c.strands, 1);
+        state.resets.assign(size_t(c.strands), 0);
+        state.faults.assign(size_t(c.strands), 0);
+        for (int block = 0; block < groom.blocks; ++block)
+            state.pace.push_back(block % (PACES + 1));
+        for (int s = 0; s < c.strands; ++s)
+        {
+            const double rest = float(groom.segment_length[size_t(s)]) * step.params.strand_spacing;
+            const Vec direction = state.root_direction[size_t(s)];
+            state.segment_length.push_back(groom.segment_length[size_t(s)]);
+            // For h 2 sqrt(tension) / courant = 2^level, just over a half of that in between.
+            const double asked = std::ldexp(random.in(0.55, 0.95), (s / 16 / (PACES + 1)) % PACES);
+            const double tension = float(std::pow(30.0 * asked * step.params.solver_courant, 2));
+            state.tension.push_back(s % 16 ? float(tension * random.in(0.0, 0.9)) : tension);
+            state.root_normal.push_back(rounded(glm::normalize(glm::cross(direction, random.direction()))));
+
+            const double wild = s % 12 == 5 ? 15.0 : 1.0, calm = std::min(1.0, 8.0 / c.nodes);
+            Vec along = step.before.turn * direction, shape = direction;
+            Vec at = step.before.turn * state.root_position[size_t(s)] - rest * along;
+            Vec at_rest = state.root_position[size_t(s)] - rest * direction;
+            Vec v = step.head_velocity;
+            for (int k = 0; k < c.nodes; ++k)
+            {
+                state.position.push_back(rounded(at));
+                state.velocity.push_back(rounded(v));
+                state.rest_position.push_back(rounded(at_rest));
+                state.rest_bend.push_back(rounded(0.3 * rest * random.vector(1.0)));
+                state.multiplier.push_back(
+                    k < 2 ? 0.0 : float(state.tension.back() * (1.0 - k / double(c.nodes)) * random.in(0.8, 1.2)));
+                if (k > 0)
+                    along = glm::normalize(along + 0.7 * calm * random.vector(1.0));
+                if (k > 0)
+                    shape = glm::normalize(shape + 0.3 * random.vector(1.0));
+                at += rest * along;
+                at_rest += rest * shape;
+                v += 0.2 * calm * wild * rest / double(step.now.seconds) * random.vector(1.0);
+            }
+        }
+    }
+
+    std::vector<float> scalars_to_blocks(const std::vector<double>& values, int nodes) const
+    {
+        std::vector<float> blocks(size_t(groom.blocks) * 16 * size_t(nodes));
+        for (int s = 0; s < groom.blocks * 16; ++s)
+            for (int k = 0; k < nodes; ++k)
+                blocks[size_t((s / 16 * nodes + k) * 16 + s % 16)] =
+                    float(values[size_t((s < groom.guides ? s : 0) * nodes + k)]);
+        return blocks;
+    }
+
+    Buffers buffers(const Device& device) const
+    {
+        const Case& c = GetParam();
+        std::vector<float> slopes;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const Vec& v : step.gradient)
+                slopes.push_back(float(v[axis]));
+        slopes.resize(std::max<size_t>(slopes.size(), 1));
+        std::vector<float4> bodies;
+        for (const bool on_head : {true, false})
+            for (const oracle::Sphere& sphere : step.bodies)
+                if (sphere.on_head == on_head)
+                {
+                    const Vec at = sphere.center - (on_head      ? Vec(0.0)
+                                                    : c.teleport ? step.now.head.origin
+                                                                 : step.before.origin);
+                    bodies.push_back(F4(float(at.x), float(at.y), float(at.z), float(sphere.radius)));
+                    bodies.push_back(F4(0.0f, 0.0f, 0.0f, 0.0f));
+                }
+        bodies.resize(std::max<size_t>(bodies.size(), 2));
+        const auto points = [&](const std::vector<Vec>& values)
+        { return filled(device, to_blocks(values, c.strands, c.nodes)); };
+        return {{"position", points(state.position)},
+                {"velocity", points(state.velocity)},
+                {"rest_position", points(state.rest_position)},
+                {"rest_bend", points(state.rest_bend)},
+                {"root_position", filled(device, groom.root_position)},
+                {"root_direction", filled(device, groom.root_direction)},
+                {"root_normal", filled(device, to_blocks(state.root_normal, c.strands, 1))},
+                {"segment_length", filled(device, groom.segment_length)},
+                {"multiplier", filled(device, scalars_to_blocks(state.multiplier, c.nodes))},
+                {"tension", filled(device, scalars_to_blocks(state.tension, 1))},
+                {"tension_next", filled(device, std::vector<float>(size_t(groom.blocks) * 16, -1.0f))},
+                {"pace", filled(device, state.pace)},
+                {"pace_next", filled(device, std::vector<int>(size_t(groom.blocks), -1))},
+                {"gradient", filled(device, slopes)},
+                {"density", filled(device, std::vector<int>(20 * 20 * 20, 0))},
+                {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
+                {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
+                {"bodies", filled(device, bodies)},
+                {"path", filled(device, path)},
+                {"params", filled(device, step.params)},
+                {"info", filled(device, step.info)}};
+    }
+
+    Buffers simulated(int width) const
+    {
+        const Case& c = GetParam();
+        const Device device = with_width(width);
+        const Buffers on_device = buffers(device);
+        const std::string features = fmt::format(
+            "{}{}{}{}{}{}", c.bending ? "-D BENDING " : "", c.curled ? "-D CURLED " : "", c.wind ? "-D WIND " : "",
+            c.repulsion ? "-D REPULSION " : "", c.contact ? "-D CONTACT " : "", c.density() ? "-D DENSITY " : "");
+        Kernel kernel = load_kernel(device, "simulate_direct", pass_options(device, c.nodes, 20, features));
+        run(device, kernel, on_device, cl::NDRange(size_t(groom.blocks) * 16 / size_t(width)));
+        return on_device;
+    }
+
+    std::vector<Vec> points(const Buffers& from, const char* name) const
+    {
+        const Case& c = GetParam();
+        const size_t values = size_t(groom.blocks) * 16 * size_t(c.nodes) * 3;
+        return from_blocks(read<float>(test_device(), from.at(name), values), c.strands, c.nodes);
+    }
+    std::vector<double> scalars(const Buffers& from, const char* name, int nodes) const
+    {
+        const std::vector<float> blocks =
+            read<float>(test_device(), from.at(name), size_t(groom.blocks) * 16 * size_t(nodes));
+        std::vector<double> values;
+        for (int s = 0; s < groom.guides; ++s)
+            for (int k = 0; k < nodes; ++k)
+                values.push_back(blocks[size_t((s / 16 * nodes + k) * 16 + s % 16)]);
+        return values;
+    }
+    std::vector<int> counts(const Buffers& from, const char* name) const
+    {
+        return read<int>(test_device(), from.at(name), size_t(groom.guides));
+    }
+
+    // The largest difference along each strand; infinite where something is not a number.
+    template <typename T> std::vector<double> apart(const std::vector<T>& a, const std::vector<T>& b) const
+    {
+        std::vector<double> most(size_t(groom.guides), 0.0);
+        for (size_t i = 0; i < a.size(); ++i)
+        {
+            double d;
+            if constexpr (std::is_same_v<T, Vec>)
+                d = glm::distance(a[i], b[i]);
+            else
+                d = std::abs(a[i] - b[i]);
+            double& m = most[i / (a.size() / most.size())];
+            m = std::max(m, std::isfinite(d) ? d : INFINITY);
+        }
+        return most;
+    }
+
+    Random random{unsigned(7 * GetParam().nodes + 1000 * GetParam().strands + 3 * GetParam().width)};
+    oracle::DirectStep step;
+    oracle::DirectStrands state;
+    StepPath path = {};
+    Groom groom;
+};
+
+TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
+{
+    const Case& c = GetParam();
+    const Buffers on_device = simulated(c.width);
+    oracle::DirectStrands expected = state;
+    const double closeness = oracle::simulate_direct(expected, step);
+    ASSERT_GT(closeness, 1e-5) << "take another seed: floats may well choose other substeps";
+
+    // Floats round; what that comes to differs from strand to strand by orders of magnitude, as do the systems'
+    // condition numbers and the chance that one more round of Newton's method is taken. So the twin is asked, with
+    // every single rounding drawn at random, and what is allowed is some times the worst of it.
+    const size_t strands = size_t(c.strands);
+    std::vector<double> place(strands), speed(strands), pull(strands), tension(strands);
+    for (int trial = 0; trial < 8; ++trial)
+    {
+        oracle::DirectStrands off = state;
+        oracle::simulate_direct(off, step, [&] { return random.in(-1.0, 1.0); });
+        const std::vector<double> x = apart(off.position, expected.position),
+                                  v = apart(off.velocity, expected.velocity),
+                                  p = apart(off.multiplier, expected.multiplier),
+                                  t = apart(off.tension, expected.tension);
+        for (size_t s = 0; s < strands; ++s)
+        {
+            place[s] = std::max(place[s], x[s]);
+            speed[s] = std::max(speed[s], v[s]);
+            pull[s] = std::max(pull[s], p[s]);
+            tension[s] = std::max(tension[s], t[s]);
+        }
+    }
+    const std::vector<double> x = apart(points(on_device, "position"), expected.position),
+                              v = apart(points(on_device, "velocity"), expected.velocity),
+                              p = apart(scalars(on_device, "multiplier", c.nodes), expected.multiplier),
+                              t = apart(scalars(on_device, "tension_next", 1), expected.tension);
+    int loose = 0;
+    double moved = 0.0;
+    for (size_t s = 0; s < strands; ++s)
+    {
+        const double length = state.segment_length[s] * (c.nodes - 2);
+        EXPECT_LE(x[s], 4.0 * place[s] + 1e-8) << "strand " << s;
+        EXPECT_LE(v[s], 4.0 * speed[s] + 1e-7) << "strand " << s;
+        EXPECT_LE(p[s], 4.0 * pull[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
+        EXPECT_LE(t[s], 4.0 * tension[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
+        loose += 4.0 * place[s] > 1e-4 * length;
+        moved = std::max(
+            moved, glm::distance(expected.position[s * size_t(c.nodes) + 2], state.position[s * size_t(c.nodes) + 2]));
+    }
+    EXPECT_LT(loose, c.strands / 4) << "of strands for which the comparison says little";
+    EXPECT_GT(moved, 1e-4);
+    EXPECT_EQ(read<int>(test_device(), on_device.at("pace_next"), size_t(groom.blocks)), expected.pace);
+    EXPECT_EQ(counts(on_device, "resets"), expected.resets);
+    EXPECT_EQ(counts(on_device, "faults"), expected.faults);
+    std::vector<double> sorted = x;
+    std::nth_element(sorted.begin(), sorted.begin() + c.strands / 2, sorted.end());
+    EXPECT_LE(sorted[strands / 2], 1e-6);
+}
+
+TEST_P(DirectPass, AddsItsNodesToTheDensityInFixedPoint)
+{
+    const Case& c = GetParam();
+    if (!c.density())
+        return;
+    const Buffers on_device = simulated(c.width);
+    const std::vector<int> density = read<int>(test_device(), on_device.at("density"), 20 * 20 * 20);
+    // From where the kernel has put the nodes. The lanes that fill the last block must not count.
+    oracle::Strands after = state;
+    after.position = points(on_device, "position");
+    const oracle::Density expected = oracle::add_density(after, 20, step.info);
+    int wrong = 0, shares = 0;
+    for (size_t i = 0; i < density.size(); ++i)
+    {
+        // Each share is rounded to a whole unit, after places that carry a little rounding themselves.
+        wrong += std::abs(density[i] - expected.sum[i]) > (0.5 + 0.1) * expected.shares[i];
+        shares += expected.shares[i];
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(shares, 0);
+}
+
+TEST_P(DirectPass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
+{
+    const Case& c = GetParam();
+    const int bad = c.strands / 2;
+    const Buffers sound = simulated(c.width);
+    const auto bits = [&](const Buffers& from, const char* name, int floats)
+    {
+        std::vector<uint8_t> bytes = bytes_of(test_device(), from.at(name));
+        for (int i = 0; i < floats; ++i) // of the bad strand
+        {
+            const size_t at = 4 * size_t((bad / 16 * floats + i) * 16 + bad % 16);
+            std::fill_n(bytes.begin() + long(at), 4, uint8_t(0));
+        }
+        return bytes;
+    };
+    const oracle::DirectStrands healthy = state;
+    const oracle::DirectStep calm = step;
+    struct
+    {
+        const char* name;
+        int fault;
+        std::function<void(size_t)> poison;
+    } const ills[] = {
+        {"position", FAULT_POSITION, [&](size_t i) { state.position[i + 2].y = NAN; }},
+        {"position, infinite", FAULT_POSITION, [&](size_t i) { state.position[i].x = INFINITY; }},
+        {"velocity", FAULT_VELOCITY, [&](size_t i) { state.velocity[i + size_t(c.nodes) - 1].z = -INFINITY; }},
+        {"multiplier", FAULT_VELOCITY, [&](size_t i) { state.multiplier[i + 2] = NAN; }},
+        {"forces", FAULT_FORCES, [&](size_t i) { state.rest_bend[i + 1].y = NAN; }},
+    };
+    for (const auto& ill : ills)
+    {
+        if (ill.fault == FAULT_FORCES && !c.curled)
+            continue;
+        state = healthy;
+        ill.poison(size_t(bad * c.nodes));
+        const Buffers after = simulated(c.width);
+        for (const char* name : {"position", "velocity"})
+            EXPECT_TRUE(bits(after, name, 3 * c.nodes) == bits(sound, name, 3 * c.nodes)) << ill.name << ": " << name;
+        EXPECT_TRUE(bits(after, "multiplier", c.nodes) == bits(sound, "multiplier", c.nodes)) << ill.name;
+        EXPECT_TRUE(bits(after, "tension_next", 1) == bits(sound, "tension_next", 1)) << ill.name;
+        EXPECT_TRUE(bytes_of(test_device(), after.at("pace_next")) == bytes_of(test_device(), sound.at("pace_next")));
+        std::vector<int> resets(size_t(c.strands), 0), faults = resets;
+        resets[size_t(bad)] = 1;
+        faults[size_t(bad)] = ill.fault;
+        EXPECT_EQ(counts(after, "resets"), resets) << ill.name;
+        EXPECT_EQ(counts(after, "faults"), faults) << ill.name;
+
+        // Within the step it is whole again, where the twin has it.
+        oracle::DirectStrands expected = state;
+        oracle::simulate_direct(expected, calm);
+        const size_t s = size_t(bad);
+        const double of_length = 1e-4 * state.segment_length[s] * (c.nodes - 2);
+        EXPECT_LE(apart(points(after, "position"), expected.position)[s], of_length) << ill.name;
+        EXPECT_LE(apart(points(after, "velocity"), expected.velocity)[s], of_length * 60 * 16) << ill.name;
+        EXPECT_LE(scalars(after, "tension_next", 1)[s], 1e30) << ill.name;
+    }
+}
+
+void calm(HairParams& p)
+{
+    p.forces_gravity = 0.02f;
+    p.solver_courant = 1.8f;
+}
+void curls(HairParams& p)
+{
+    p.bending_droop = 5.0f;
+    p.bending_attenuation = 1.0f;
+    p.forces_friction = 0.5f;
+    p.solver_courant = 1.5f;
+}
+void material(HairParams& p)
+{
+    p.bending_modulus = 4.0f;
+    p.bending_diameter = 60.0f;
+    p.forces_drag = 40.0f;
+    p.strand_spacing = 1.3f;
+}
+void floor_of_4(HairParams& p)
+{
+    p.solver_substeps = 3;
+    p.forces_drag = 0.0f;
+    p.forces_gravity = -0.5f;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DirectPass,
+    testing::Values(Case{"everything", 16, 16, 475, true, true, true, true, true, false, curls},
+                    Case{"everything_8_wide", 8, 16, 470, true, true, true, true, true, false, curls, 1.0 / 120.0},
+                    Case{"everything_1_wide", 1, 16, 101, true, true, true, true, true, false, nullptr},
+                    Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls},
+                    Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
+                    Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},
+                    Case{"strands_of_3", 16, 3, 101, true, false, true, false, false, false, nullptr},
+                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm},
+                    Case{"strands_of_33", 16, 33, 97, true, true, false, false, false, false, floor_of_4},
+                    Case{"strands_of_33_8_wide", 8, 33, 97, false, false, false, false, true, false, nullptr}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
+} // namespace coif
