@@ -165,6 +165,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             if (i + 1 < NODES)
                 move[i] = plus(move[i], times(hg * pull[i + 1], a[i + 1]));
         }
+        if (isinf(tip_mass)) // held where it is: its inverse mass is 0
+            move[NODES - 1] = points((real)(0.0f), (real)(0.0f), (real)(0.0f));
 #ifdef BENDING
         add_bending(x, move, along, rest, hg * stiffness, weight
 #ifdef CURLED

@@ -2,7 +2,7 @@
 #include "app/measure/plots.h"
 #include "app/measure/cantilever.h"
 #include "app/measure/figure.h"
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 
 #include <fmt/format.h>
 

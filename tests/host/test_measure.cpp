@@ -5,7 +5,7 @@
 #include "app/measure/geodesic.h"
 #include "app/measure/plots.h"
 #include "app/measure/rows.h"
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 #include "app/ssim.h"
 #include "tests/host/scratch.h"
 
