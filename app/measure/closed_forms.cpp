@@ -113,7 +113,7 @@ std::vector<Row> measure_pendulum(const Measuring& with)
             scene.links = 1;
             scene.direction = {std::sin(swing), -std::cos(swing), 0.0};
             with.progress(fmt::format("{} degrees, {}", degrees, solver_name(solver)));
-            const LabRun run = play(with, solver, scene, 60.0, with.quick ? 8.0 : 15.0);
+            const LabRun run = play(with, solver, scene, 60.0, 8.0);
             std::vector<double> angle;
             for (const auto& nodes : run.nodes)
                 angle.push_back(std::atan2(nodes[1].x - nodes[0].x, nodes[0].y - nodes[1].y));

@@ -63,6 +63,8 @@ std::vector<Row> measure_small_swing(const Measuring& with)
     return rows;
 }
 
+constexpr double kRounding = 1e-5; // L: what float leaves after some seconds, which no finer step mends
+
 // Errors over the step, and the slope of their logarithms, which is asked of steps that solve the same equations: no
 // longer than the wave across the strand allows.
 static void add_order(std::vector<Row>& rows, const Measuring& with, const char* setting, const study::Scene& scene,
@@ -84,8 +86,11 @@ static void add_order(std::vector<Row>& rows, const Measuring& with, const char*
         rows.back().knob = "substep, ms";
         rows.back().value = 1e3 / (60.0 * per_frame);
         rows.back().stretch = run.stretch;
-        steps.push_back(rows.back().value);
-        errors.push_back(error);
+        if (error > kRounding)
+        {
+            steps.push_back(rows.back().value);
+            errors.push_back(error);
+        }
     }
     rows.push_back(strand_row("A10", setting, "order", usual, observed_order(steps, errors), "", reference,
                               {least_order, least_order}));
