@@ -12,7 +12,7 @@ namespace coif
 // Okabe and Ito's palette, which colour-blind readers can tell apart.
 static const char* const kPalette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                        "#E69F00", "#56B4E9", "#000000", "#999933"};
-static const int kPointTypes[] = {7, 5, 9, 13, 11, 4, 6, 8};
+static const int kPointTypes[] = {7, 5, 9, 13, 11, 4, 6, 8, 12, 10, 1};
 
 // A string of gnuplot's: in single quotes only the quote itself is special.
 static std::string quoted(const std::string& text)
@@ -81,7 +81,7 @@ static std::string style_of(const Series& series)
 {
     const size_t which = size_t(series.color) % std::size(kPalette);
     const char* color = kPalette[which];
-    const int point = kPointTypes[which];
+    const int point = kPointTypes[size_t(series.color) % std::size(kPointTypes)]; // further series repeat neither pair
     switch (series.kind)
     {
     case Series::LINE:
