@@ -102,14 +102,25 @@ static std::string style_of(const Series& series)
 
 Plot figure(const std::string& name, const std::vector<Panel>& panels)
 {
-    const int columns = panels.size() < 2 ? 1 : panels.size() < 5 ? 2 : 3;
+    // Many series are named beside the panel, one below the other.
+    const bool crowded =
+        std::any_of(panels.begin(), panels.end(), [](const Panel& panel) { return panel.series.size() > 7; });
+    const int columns = panels.size() < 2 || crowded ? 1 : panels.size() < 5 ? 2 : 3;
     const int rows = (int(panels.size()) + columns - 1) / columns;
-    Plot plot{name, columns == 1 ? 640 : columns * 440, columns == 1 ? 480 : rows * 360, "", ""};
+    Plot plot{name,
+              crowded        ? 860
+              : columns == 1 ? 640
+                             : columns * 440,
+              crowded        ? rows * 400
+              : columns == 1 ? 480
+                             : rows * 380,
+              "", ""};
     if (panels.size() > 1)
         plot.body += fmt::format("set multiplot layout {},{}\n", rows, columns);
-    plot.body += "set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
-                 "set grid linecolor '#EEEEEE' linetype 1\nset key tmargin center horizontal Left reverse noenhanced "
-                 "samplen 1.6 maxcols 3 font ',10'\n";
+    plot.body += fmt::format("set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
+                             "set grid linecolor '#EEEEEE' linetype 1\nset key {} Left reverse noenhanced samplen 1.6 "
+                             "font ',10'\n",
+                             crowded ? "rmargin center vertical" : "tmargin center horizontal maxcols 3");
     for (size_t p = 0; p < panels.size(); ++p)
     {
         const Panel& panel = panels[p];
