@@ -306,6 +306,10 @@ std::vector<Row> made_up_rows()
             row.measured = droop_at(row.value).ratio() * (1.0 + 0.1 / p);
             row.error = 0.1 / p;
             rows.push_back(row);
+            row.scene = "courant";
+            row.metric = "rms";
+            row.knob = "courant";
+            rows.push_back(row);
         }
     return rows;
 }
