@@ -30,7 +30,7 @@ using Frame = std::function<double()>; // plays one, and says what it cost: ns a
 } // namespace
 
 static int strands_of(const Measuring& with) { return with.quick ? 512 : 4096; }
-static int frames_of(const Measuring& with) { return with.quick ? 12 : 60; }
+static int frames_of(const Measuring& with) { return with.quick ? 12 : 30; }
 
 // Plays many copies of the strand.
 static Frame priced(const Measuring& with, const Point& point, const study::Scene& scene, int copies)
@@ -129,7 +129,7 @@ std::vector<Row> measure_iterations(const Measuring& with)
         points.push_back({product_solvers()[1], double(n)});
         points.back().solver.solver_iterations = n;
     }
-    return sweep(with, "iterations", "iterations", points, std::min(strands_of(with), 1024));
+    return sweep(with, "iterations", "iterations", points, std::min(strands_of(with), 512));
 }
 
 std::vector<Row> measure_substeps(const Measuring& with)
