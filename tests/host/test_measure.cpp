@@ -5,8 +5,8 @@
 #include "app/measure/geodesic.h"
 #include "app/measure/plots.h"
 #include "app/measure/rows.h"
-#include "app/statistics.h"
 #include "app/ssim.h"
+#include "app/statistics.h"
 #include "tests/host/scratch.h"
 
 #include <glm/geometric.hpp>
