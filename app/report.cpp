@@ -1,7 +1,7 @@
 #include "app/report.h"
 
 #include "app/json.h"
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 #include "sim/error.h"
 #include "sim/health.h"
 

@@ -10,11 +10,6 @@ kernel void probe_repulsion(global const float* position, global const float* gr
     for (int i = 0; i < NODES; ++i)
     {
         const int at = first + i * 3 * LANES;
-        real x = (real)(0.0f), y = (real)(0.0f), z = (real)(0.0f);
-        add_repulsion(&x, &y, &z, LANES_LOAD(position + at), LANES_LOAD(position + at + LANES),
-                      LANES_LOAD(position + at + 2 * LANES), gradient, info);
-        LANES_STORE(x, acceleration + at);
-        LANES_STORE(y, acceleration + at + LANES);
-        LANES_STORE(z, acceleration + at + 2 * LANES);
+        store_lanes(repulsion_at(gradient, load_lanes(position + at), info), acceleration + at);
     }
 }

@@ -2,7 +2,6 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
-#include "sim/solver.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,7 +20,7 @@ static Groom hang(const LabStrand& strand, int copies)
         strand.nodes + 1; // the first two of the kernels' are prescribed, and only their second is node 0 here
     groom.guides = copies;
     groom.blocks = (copies + LANES - 1) / LANES;
-    groom.tip_mass = float(strand.tip_mass);
+    groom.tip_mass = strand.tip_held ? INFINITY : float(strand.tip_mass);
     groom.longest = float(strand.length);
     groom.extent = groom.farthest = float(strand.length);
     const size_t strands = size_t(groom.blocks) * LANES;
@@ -36,8 +35,8 @@ static Groom hang(const LabStrand& strand, int copies)
     return groom;
 }
 
-LabRun run_lab(const Device& device, const HairParams& authored, const LabStrand& strand, const RootPath& root,
-               double seconds, double fps, int copies)
+// Of one strand without bending unless gamma is given.
+static HairParams checked(const HairParams& authored, const LabStrand& strand, double fps)
 {
     const auto within = [](const char* what, double value, double low, double high)
     {
@@ -48,9 +47,12 @@ LabRun run_lab(const Device& device, const HairParams& authored, const LabStrand
     within("--length (m)", strand.length, 1e-6, 1e5);
     within("--tip-mass", strand.tip_mass, 1e-3, 1e3);
     within("--fps", fps, 1, 1e5);
-    within("--seconds", seconds, 0, 3600);
     if (strand.gamma)
         within("--gamma", *strand.gamma, 1e-3, 1e6);
+    if (!strand.start.empty() && int(strand.start.size()) != strand.nodes)
+        throw fail("a start for {} nodes, but the strand has {}", strand.start.size(), strand.nodes);
+    if (strand.tip_held && authored.solver_kind != 0)
+        throw fail("only the direct solver can hold a strand's tip");
 
     HairParams params = authored;
     params.forces_repulsion = params.look_self_shadow = 0.0f;
@@ -59,47 +61,92 @@ LabRun run_lab(const Device& device, const HairParams& authored, const LabStrand
     params.bending_droop = strand.gamma ? float(*strand.gamma) : INFINITY; // softer than any that bends
     if (!strand.gamma)
         params.solver_bending = 0.0f;
-    Pose pose;
-    pose.origin = root(0.0);
-    Solver solver(device, params, hang(strand, copies), pose);
+    return params;
+}
 
-    LabRun run;
-    const double rest = strand.length / (strand.nodes - 1);
-    const auto look = [&](double t)
-    {
-        const Mapped view = solver.guide_positions();
-        const float* x = view.as<float>();
-        std::vector<glm::dvec3> nodes;
-        for (int k = 1; k <= strand.nodes; ++k)
-        {
-            glm::dvec3 p;
+// The head's origin is the root: node 1 of the kernels'.
+static void put(const Device& device, const Solver& solver, const std::vector<glm::dvec3>& start)
+{
+    if (start.empty())
+        return;
+    const Groom& groom = solver.groom();
+    std::vector<float> position(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
+    for (int s = 0; s < groom.blocks * LANES; ++s)
+        for (int k = 0; k < groom.nodes; ++k)
             for (int axis = 0; axis < 3; ++axis)
-                p[axis] = double(x[strand_value(0, k, axis, strand.nodes + 1)]);
-            nodes.push_back(p + solver.head().origin);
-            if (k > 1)
-                run.stretch =
-                    std::max(run.stretch, std::abs(glm::distance(nodes.back(), nodes[nodes.size() - 2]) / rest - 1.0));
-        }
-        run.times.push_back(t);
-        run.nodes.push_back(std::move(nodes));
-    };
-    look(0.0);
-    const long frames = long(std::floor(seconds * fps + 1e-6));
-    const int steps = std::max(1, int(std::ceil(60.0 / fps - 1e-9)));
-    std::vector<double> spent;
-    for (long f = 0; f < frames; ++f)
+            {
+                const glm::dvec3 p = k > 0 ? start[size_t(k - 1)] : 2.0 * start[0] - start[1];
+                position[size_t(strand_value(s, k, axis, groom.nodes))] = float(p[axis] - start[0][axis]);
+            }
+    write(device, solver.buffers().at("position"), position);
+}
+
+Lab::Lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root, double fps,
+         int copies)
+    : device_(device), strand_(strand), root_(root), fps_(fps), copies_(copies),
+      solver_(device, checked(params, strand, fps), hang(strand, copies), Pose{root(0.0), glm::dquat(1, 0, 0, 0), {}})
+{
+    put(device, solver_, strand.start);
+}
+
+double Lab::frame()
+{
+    const int steps = std::max(1, int(std::ceil(60.0 / fps_ - 1e-9)));
+    for (int i = 1; i <= steps; ++i)
     {
-        for (int i = 1; i <= steps; ++i)
-        {
-            const double h = 1.0 / (fps * steps), begin = double(f) / fps + (i - 1) * h;
-            const auto way = [&](double share) { return Pose{root(begin + share * h), pose.turn, pose.wind}; };
-            solver.step({{way(1.0), begin + h, float(h), way}});
-        }
-        double ms = 0.0;
-        for (const auto& [pass, of_pass] : solver.take_times())
-            ms += of_pass;
-        spent.push_back(1e6 * ms / copies);
-        look(double(f + 1) / fps);
+        const double h = 1.0 / (fps_ * steps), begin = double(frames_) / fps_ + (i - 1) * h;
+        const auto way = [&](double share) {
+            return Pose{root_(begin + share * h), solver_.head().turn, solver_.head().wind};
+        };
+        solver_.keep_awake();
+        solver_.step({{way(1.0), begin + h, float(h), way}});
+    }
+    ++frames_;
+    double ms = 0.0;
+    for (const auto& [pass, of_pass] : solver_.take_times())
+        ms += of_pass;
+    return 1e6 * ms / copies_;
+}
+
+void Lab::look(LabRun& run) const
+{
+    const Mapped position = solver_.guide_positions(),
+                 velocity(device_, solver_.buffers().at("velocity"), position.bytes());
+    const double rest = strand_.length / (strand_.nodes - 1);
+    const auto first = [&](const Mapped& from, int k)
+    {
+        glm::dvec3 v;
+        for (int axis = 0; axis < 3; ++axis)
+            v[axis] = double(from.as<float>()[strand_value(0, k, axis, strand_.nodes + 1)]);
+        return v;
+    };
+    std::vector<glm::dvec3> nodes, velocities;
+    for (int k = 1; k <= strand_.nodes; ++k)
+    {
+        nodes.push_back(first(position, k) + solver_.head().origin);
+        velocities.push_back(first(velocity, k));
+        if (k > 1)
+            run.stretch =
+                std::max(run.stretch, std::abs(glm::distance(nodes.back(), nodes[nodes.size() - 2]) / rest - 1.0));
+    }
+    run.times.push_back(double(frames_) / fps_);
+    run.nodes.push_back(std::move(nodes));
+    run.velocities.push_back(std::move(velocities));
+}
+
+LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root,
+               double seconds, double fps, int copies)
+{
+    if (!(seconds >= 0.0 && seconds <= 3600.0))
+        throw fail("--seconds is {}, but must lie in [0, 3600]", seconds);
+    Lab lab(device, params, strand, root, fps, copies);
+    LabRun run;
+    lab.look(run);
+    std::vector<double> spent;
+    for (long f = 0; f < long(std::floor(seconds * fps + 1e-6)); ++f)
+    {
+        spent.push_back(lab.frame());
+        lab.look(run);
     }
     if (!spent.empty())
     {

@@ -1,6 +1,6 @@
 #pragma once
 #include "sim/device.h"
-#include "sim/params.h"
+#include "sim/solver.h"
 
 #include <glm/vec3.hpp>
 
@@ -16,28 +16,51 @@ namespace coif
 // point; all further nodes are free, the strand begins straight and at rest.
 struct LabStrand
 {
-    int nodes = 16;              // counting node 0; 2 to 256
-    double length = 0.3;         // m
-    double tip_mass = 0.5;       // of the last node against the others
-    double angle = 0.0;          // rad, of the straight start from the downward vertical, towards +x
-    std::optional<double> gamma; // droop number, clamped along the start direction; none: no bending
+    int nodes = 16;                // counting node 0; 2 to 256
+    double length = 0.3;           // m
+    double tip_mass = 0.5;         // of the last node against the others
+    double angle = 0.0;            // rad, of the straight start from the downward vertical, towards +x
+    std::optional<double> gamma;   // droop number, clamped along the start direction; none: no bending
+    std::vector<glm::dvec3> start; // nodes 0 and up, m, where they do not begin straight along `angle`; segments of
+                                   // equal length
+    bool tip_held = false;         // the last node stays where it starts; not known to pbd
 };
 
 struct LabRun
 {
-    std::vector<double> times;                  // s
-    std::vector<std::vector<glm::dvec3>> nodes; // [time][node], m, in the coordinates of the root's path
-    double stretch = 0.0;                       // worst of any segment at any of these times, as a fraction
-    double nanoseconds = 0.0;                   // a strand and frame, median over frames; of use with many copies
+    std::vector<double> times;                       // s
+    std::vector<std::vector<glm::dvec3>> nodes;      // [time][node], m, in the coordinates of the root's path
+    std::vector<std::vector<glm::dvec3>> velocities; // [time][node], m/s: the mean of the last substep
+    double stretch = 0.0;                            // worst of any segment at any of these times, as a fraction
+    double nanoseconds = 0.0;                        // a strand and frame, median over frames; of use with many copies
 };
 
 // Where the root is at a time, m.
 using RootPath = std::function<glm::dvec3(double seconds)>;
 
-// Moves the strand for `seconds` and looks at it `fps` times a second, 0 included. Steps are as long as a frame, or
-// equal parts of it of at most 1/60 s. `params` as authored: solver, drag, gravity and so on; its strand.* and
-// bending.* do not count. `copies` strands are moved side by side, for the clock's sake. Throws Error for what cannot
-// be.
+// A strand hung up, to be moved frame by frame, `copies` of it side by side for the clock's sake. Steps are as long as
+// a frame, or equal parts of it of at most 1/60 s. `params` as authored: solver, drag, gravity and so on; its strand.*
+// and bending.* do not count. It never sleeps. Throws Error for what cannot be.
+class Lab
+{
+  public:
+    Lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root, double fps,
+        int copies = 1);
+
+    double frame();              // ns a strand that the device took
+    void look(LabRun& at) const; // adds the first strand as it is now
+
+  private:
+    const Device& device_;
+    LabStrand strand_;
+    RootPath root_;
+    double fps_;
+    int copies_;
+    long frames_ = 0;
+    Solver solver_;
+};
+
+// Moves the strand for `seconds` and looks at it `fps` times a second, 0 included.
 LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root,
                double seconds, double fps, int copies = 1);
 

@@ -51,6 +51,7 @@ class Solver
     // Hair that has come to rest on a head at rest in still air sleeps: steps and draws cost nothing until something
     // changes.
     bool asleep() const { return asleep_; }
+    void keep_awake() { changed_ = true; } // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
 
     // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.

@@ -201,6 +201,16 @@ TEST_F(Commands, measure_writes_rows_that_make_sense_and_passes)
 
     const Result unknown = coif("measure --quick --only A99 -o none");
     EXPECT_EQ(unknown.status, 1);
-    EXPECT_NE(unknown.err.find("--only A99: there is no such scene; there are A12"), std::string::npos) << unknown.err;
+    EXPECT_NE(unknown.err.find("--only A99: there is no such scene; there are A1,"), std::string::npos) << unknown.err;
     EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST_F(Commands, measure_holds_the_solver_to_its_references)
+{
+    const Result result = coif("measure --quick --only A5,A8 -o figures");
+    EXPECT_EQ(result.status, 0) << result.out << result.err;
+    EXPECT_EQ(result.out.find("MISSED"), std::string::npos) << result.out;
+    for (const char* row : {"A5 shake_b2", "A5 turn_b1", "A5 release30_b0", "A5 release90_b1", "spread of H/W"})
+        EXPECT_NE(result.out.find(row), std::string::npos) << row << " in " << result.out;
+    EXPECT_TRUE(fs::exists(folder / "figures/plots/cantilever.gp"));
 }

@@ -173,6 +173,7 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"pace_next", filled(device, std::vector<int>(size_t(groom.blocks), -1))},
                 {"gradient", filled(device, slopes)},
                 {"density", filled(device, std::vector<int>(20 * 20 * 20, 0))},
+                {"moved", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 0.0f))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"bodies", filled(device, bodies)},

@@ -1,6 +1,6 @@
 #include "app/measure/cost.h"
 
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 
 namespace coif
 {
@@ -16,6 +16,7 @@ std::vector<double> frame_ms(const Solvers& solvers, bool drawn, int repeats)
                 solver->take_times();
                 for (int i = 0; i < frames; ++i)
                 {
+                    solver->keep_awake();
                     solver->step({{solver->head(), 0.0, 1.0f / 60.0f}});
                     if (drawn)
                         solver->draw();

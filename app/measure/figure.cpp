@@ -12,7 +12,7 @@ namespace coif
 // Okabe and Ito's palette, which colour-blind readers can tell apart.
 static const char* const kPalette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                        "#E69F00", "#56B4E9", "#000000", "#999933"};
-static const int kPointTypes[] = {7, 5, 9, 13, 11, 4, 6, 8};
+static const int kPointTypes[] = {7, 5, 9, 13, 11, 4, 6, 8, 12, 10, 1};
 
 // A string of gnuplot's: in single quotes only the quote itself is special.
 static std::string quoted(const std::string& text)
@@ -81,7 +81,7 @@ static std::string style_of(const Series& series)
 {
     const size_t which = size_t(series.color) % std::size(kPalette);
     const char* color = kPalette[which];
-    const int point = kPointTypes[which];
+    const int point = kPointTypes[size_t(series.color) % std::size(kPointTypes)]; // further series repeat neither pair
     switch (series.kind)
     {
     case Series::LINE:
@@ -102,14 +102,25 @@ static std::string style_of(const Series& series)
 
 Plot figure(const std::string& name, const std::vector<Panel>& panels)
 {
-    const int columns = panels.size() < 2 ? 1 : panels.size() < 5 ? 2 : 3;
+    // Many series are named beside the panel, one below the other.
+    const bool crowded =
+        std::any_of(panels.begin(), panels.end(), [](const Panel& panel) { return panel.series.size() > 7; });
+    const int columns = panels.size() < 2 || crowded ? 1 : panels.size() < 5 ? 2 : 3;
     const int rows = (int(panels.size()) + columns - 1) / columns;
-    Plot plot{name, columns == 1 ? 640 : columns * 440, columns == 1 ? 480 : rows * 360, "", ""};
+    Plot plot{name,
+              crowded        ? 860
+              : columns == 1 ? 640
+                             : columns * 440,
+              crowded        ? rows * 400
+              : columns == 1 ? 480
+                             : rows * 380,
+              "", ""};
     if (panels.size() > 1)
         plot.body += fmt::format("set multiplot layout {},{}\n", rows, columns);
-    plot.body += "set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
-                 "set grid linecolor '#EEEEEE' linetype 1\nset key tmargin center horizontal Left reverse noenhanced "
-                 "samplen 1.6 maxcols 3 font ',10'\n";
+    plot.body += fmt::format("set border 3 linecolor '#444444'\nset tics nomirror out scale 0.6 textcolor '#444444'\n"
+                             "set grid linecolor '#EEEEEE' linetype 1\nset key {} Left reverse noenhanced samplen 1.6 "
+                             "font ',10'\n",
+                             crowded ? "rmargin center vertical" : "tmargin center horizontal maxcols 3");
     for (size_t p = 0; p < panels.size(); ++p)
     {
         const Panel& panel = panels[p];

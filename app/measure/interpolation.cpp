@@ -4,7 +4,7 @@
 #include "app/measure/cost.h"
 #include "app/measure/geodesic.h"
 #include "app/measure/measure.h"
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 #include "sim/error.h"
 #include "sim/health.h"
 #include "sim/motion.h"

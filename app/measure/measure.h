@@ -39,6 +39,25 @@ std::string solver_name(const HairParams& params);
 int measure(const Options& options, const MeasureOptions& wanted);
 
 // The scenes, in files of their own.
+std::vector<Row> measure_fall(const Measuring&);        // A1: closed_forms.cpp
+std::vector<Row> measure_pendulum(const Measuring&);    // A2: closed_forms.cpp
+std::vector<Row> measure_modes(const Measuring&);       // A3: closed_forms.cpp
+std::vector<Row> measure_decay(const Measuring&);       // A4: closed_forms.cpp
+std::vector<Row> measure_motion(const Measuring&);      // A5: trajectories.cpp
+std::vector<Row> measure_small_swing(const Measuring&); // A5m: trajectories.cpp
+std::vector<Row> measure_hang(const Measuring&);        // A6: rest.cpp
+std::vector<Row> measure_wind(const Measuring&);        // A7: rest.cpp
+std::vector<Row> measure_cantilever(const Measuring&);  // A8: rest.cpp
+std::vector<Row> measure_catenary(const Measuring&);    // A9: rest.cpp
+std::vector<Row> measure_order(const Measuring&);       // A10: trajectories.cpp
+std::vector<Row> measure_energy(const Measuring&);      // A11: closed_forms.cpp
+std::vector<Row> measure_twin(const Measuring&);        // A14: trajectories.cpp
+std::vector<Row> measure_solvers(const Measuring&);     // one against another: sweeps.cpp, as all knobs of a strand
+std::vector<Row> measure_iterations(const Measuring&);
+std::vector<Row> measure_substeps(const Measuring&);
+std::vector<Row> measure_courant(const Measuring&);
+std::vector<Row> measure_rate(const Measuring&);
+std::vector<Row> measure_nodes(const Measuring&);
 std::vector<Row> measure_interpolation(const Measuring&); // A12: interpolation.cpp
 std::vector<Row> measure_ratio(const Measuring&);         // copies against mixes: interpolation.cpp
 std::vector<Row> measure_voxels(const Measuring&);        // A13: voxels.cpp

@@ -4,9 +4,9 @@
 // face are alike whatever the hair does, and over a whole frame they alone would score well.
 #include "app/measure/geodesic.h"
 #include "app/measure/measure.h"
-#include "app/measure/statistics.h"
 #include "app/renderer.h"
 #include "app/ssim.h"
+#include "app/statistics.h"
 #include "sim/error.h"
 #include "sim/source.h"
 

@@ -2,7 +2,7 @@
 #include "app/measure/plots.h"
 #include "app/measure/cantilever.h"
 #include "app/measure/figure.h"
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 
 #include <fmt/format.h>
 
@@ -83,11 +83,23 @@ static Series front_of(const Panel& panel)
     return front;
 }
 
-static std::vector<Panel> error_cost(const std::vector<Row>& rows)
+// One knob of a strand, turned alone: sweeps.cpp.
+static bool is_strand_sweep(const Row& row)
+{
+    const char* const ids[] = {"iterations", "substeps", "courant", "rate", "nodes"};
+    return std::find(std::begin(ids), std::end(ids), row.scene) != std::end(ids);
+}
+
+static std::vector<Panel> error_cost(const std::vector<Row>& rows, bool solvers)
 {
     std::vector<Panel> panels;
-    const auto priced = only(rows, [](const Row& r)
-                             { return r.error > 0.0 && r.ns_strand_frame > 0.0 && !r.at_least && r.scene != "grid"; });
+    // Sweeps of one knob are drawn over it. Below a millionth, models in double precision go on where float cannot.
+    const auto priced = only(rows,
+                             [solvers](const Row& r)
+                             {
+                                 return r.error > 1e-6 && r.ns_strand_frame > 0.0 && !r.at_least && r.scene != "grid" &&
+                                        !is_strand_sweep(r) && (r.scene == "solver") == solvers;
+                             });
     for (const std::string& scene : keys_of(priced, case_of))
     {
         std::vector<Row> own = only(priced, [&](const Row& r) { return case_of(r) == scene; });
@@ -95,7 +107,8 @@ static std::vector<Panel> error_cost(const std::vector<Row>& rows)
                    [&](const Row& r) { return r.metric == own[0].metric; }); // a scene's first metric is its main one
         if (own.size() < 2)
             continue;
-        Panel panel{scene, "cost, ns a strand and frame", error_label(own[0]), true, true, {}};
+        Panel panel{
+            solvers ? own[0].setting : scene, "cost, ns a strand and frame", error_label(own[0]), true, true, {}};
         add_series(
             panel, own, [](const Row& r) { return r.solver; }, [](const Row& r) { return r.ns_strand_frame; },
             shown_error);
@@ -199,7 +212,12 @@ static std::vector<Panel> picture(const std::vector<Row>& rows)
 static std::vector<Panel> knobs(const std::vector<Row>& rows)
 {
     std::vector<Panel> panels;
-    const auto turned = only(rows, [](const Row& r) { return std::isfinite(r.value) && std::isfinite(r.error); });
+    const auto is_sweep = [](const Row& r) {
+        return is_strand_sweep(r) || r.scene == "A12" || r.scene == "ratio" || r.scene == "grid" ||
+               r.scene == "picture";
+    };
+    const auto turned =
+        only(rows, [&](const Row& r) { return is_sweep(r) && std::isfinite(r.value) && std::isfinite(r.error); });
     const Key panel_of = [](const Row& r) { return r.scene + ": " + r.knob + " in " + r.unit; };
     for (const std::string& title : keys_of(turned, panel_of))
     {
@@ -230,7 +248,7 @@ static std::vector<Panel> knobs(const std::vector<Row>& rows)
             return name.empty() ? r.metric : name;
         };
         const std::string& unit = own[0].unit;
-        Panel panel{own[0].scene + ": " + own[0].knob,
+        Panel panel{is_strand_sweep(own[0]) ? own[0].knob : own[0].scene + ": " + own[0].knob,
                     own[0].knob,
                     unit == "L"          ? "error, % of the length"
                     : unit == "fraction" ? "error, %"
@@ -248,7 +266,8 @@ static std::vector<Panel> knobs(const std::vector<Row>& rows)
 std::vector<Plot> plots_of(const std::vector<Row>& rows)
 {
     std::vector<Plot> plots;
-    const std::pair<const char*, std::vector<Panel>> all[] = {{"error_cost", error_cost(rows)},
+    const std::pair<const char*, std::vector<Panel>> all[] = {{"solvers", error_cost(rows, true)},
+                                                              {"error_cost", error_cost(rows, false)},
                                                               {"order", order(rows)},
                                                               {"cantilever", cantilever(rows)},
                                                               {"picture", picture(rows)},

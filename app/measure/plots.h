@@ -18,7 +18,8 @@ struct Plot
 };
 
 // The figures that these rows give; those without data are left out.
-//   error_cost      error against cost, a panel a scene, one line a solver, the Pareto front drawn
+//   solvers         error against cost on two motions, one line a solver or model, the Pareto front drawn
+//   error_cost      the same of all other scenes, a panel a scene
 //   order           error against step, with slopes of order 1 and 2
 //   cantilever      the master curve of the cantilever with our points on it (scene A8, measured H/W over Gamma)
 //   picture         SSIM over hair against milliseconds

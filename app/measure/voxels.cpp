@@ -81,7 +81,8 @@ static Hair crowd(const Measuring& with, const Hairstyle& style, int guides)
 // The left side to the right.
 static Hair mirrored(Hair hair)
 {
-    for (std::vector<float>* values : {&hair.groom.root_position, &hair.groom.root_direction, &hair.position})
+    for (std::vector<float>* values : {&hair.groom.root_position, &hair.groom.root_direction,
+                                       &hair.groom.natural_position, &hair.groom.rest_position, &hair.position})
         for (size_t i = 0; i < values->size(); ++i)
             if (i / LANES % 3 == 0)
                 (*values)[i] = -(*values)[i];

@@ -1,4 +1,4 @@
-#include "app/measure/statistics.h"
+#include "app/statistics.h"
 
 #include <algorithm>
 #include <cmath>
