@@ -14,6 +14,7 @@ using Vec = glm::dvec3;
 static constexpr double kGravity = 9.81;      // m/s^2
 static constexpr double kFibreDensity = 1300; // kg/m^3
 static constexpr double kMostBend = 0.5;      // of a segment, that gravity is compensated by at one node
+static constexpr double kFinest = 1.0 / 60.0 / MOST_SUBSTEPS; // s
 
 static Vec any_normal(Vec t) { return glm::normalize(std::abs(t.x) > 0.6 ? Vec(-t.z, 0.0, t.x) : Vec(0.0, t.z, -t.y)); }
 
@@ -44,19 +45,45 @@ static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffn
     const int last = int(x.size()) - 1;
     off.assign(x.size() + 1, Vec(0.0));
     pull.assign(x.size() + 1, 0.0);
-    std::vector<Vec> force(x.size() + 2, Vec(0.0)); // stiffness times off
+    std::vector<Vec> force(x.size() + 2, Vec(0.0)), push(x.size() + 2, Vec(0.0));
+    double twist = 0.0;
+    Vec beyond(0.0);
+    const auto segment = [&](int i) { return x[size_t(i)] - x[size_t(i - 1)]; };
     for (int i = last; i > 1; --i)
     {
-        const Vec a = x[size_t(i)] - x[size_t(i - 1)];
-        Vec load = (i == last ? tip_mass : 1.0) * gravity + 2.0 * force[size_t(i)] - force[size_t(i + 1)];
+        const Vec a = segment(i), t = glm::normalize(a), before = glm::normalize(segment(i - 1));
         if (i < last)
-            load += pull[size_t(i + 1)] * (x[size_t(i + 1)] - x[size_t(i)]);
+        {
+            // What the element about node i turns its frame by, as kernels/direct.h does.
+            const Vec torque = glm::cross(segment(i + 1) - a, force[size_t(i)]);
+            twist += glm::dot(torque, t);
+            const Vec here = twist / std::max(1.0 + glm::dot(before, t), 0.05) * glm::cross(before, t);
+            const Vec turning = glm::cross(torque, t) - here - beyond;
+            push[size_t(i)] = (turning - glm::dot(turning, t) * t) / glm::length(a);
+            beyond = here;
+        }
+        Vec load = (i == last ? tip_mass : 1.0) * gravity + 2.0 * force[size_t(i)] - force[size_t(i + 1)] +
+                   push[size_t(i)] - push[size_t(i + 1)];
+        if (i < last)
+            load += pull[size_t(i + 1)] * segment(i + 1);
         pull[size_t(i)] = glm::dot(load, a) / glm::dot(a, a);
         force[size_t(i - 1)] = load - pull[size_t(i)] * a;
         const double k = stiffness[size_t(i - 1)];
         off[size_t(i - 1)] = k > 0.0 ? force[size_t(i - 1)] / k : Vec(0.0);
     }
 }
+
+static double stiffness_over_mass(const HairParams& params, int links, double rest)
+{
+    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
+    return modulus > 0.0 ? modulus * radius * radius / (4.0 * kFibreDensity * std::pow(rest, 4))
+                         : kGravity * links * links * links / (double(params.bending_droop) * rest);
+}
+
+// The implicit step holds what bending resists to, but not what frames do that turn with the strand: kernels/direct.h
+// adds that explicitly. It is stable while h^2 stiffness share < 1. The bound, with some room, is of the eigenvalues of
+// helices of 5 to 20 segments a turn and 14 to 62 in all; `bend` is the largest second difference, in segments.
+static double explicit_share(double bend) { return 0.35 * bend * bend + std::pow(bend, 5); }
 
 RestShape make_rest_shape(const HairParams& params, const Groom& groom)
 {
@@ -67,7 +94,26 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
     shape.bend.resize(shape.position.size());
     shape.multiplier.resize(strands * size_t(nodes));
     shape.normal.resize(strands * 3);
-    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
+    double tightest = 0.0;
+    for (int s = 0; s < groom.blocks * LANES && !groom.rest_position.empty(); ++s)
+    {
+        const auto axis_of = [&](int node, int axis)
+        { return double(groom.rest_position[size_t(strand_value(s, node, axis, nodes))]); };
+        for (int e = 2; e + 1 < nodes; ++e)
+        {
+            Vec a, b;
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                a[axis] = axis_of(e, axis) - axis_of(e - 1, axis);
+                b[axis] = axis_of(e + 1, axis) - axis_of(e, axis);
+            }
+            if (glm::length(a) > 1e-12 && glm::length(b) > 1e-12)
+                tightest = std::max(tightest, glm::distance(glm::normalize(a), glm::normalize(b)));
+        }
+    }
+    const double share = explicit_share(tightest);
+    if (tightest > 1e-5)
+        shape.bend_most = 1.0 / (share * kFinest * kFinest);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
         const auto of = [&](const std::vector<float>& from, int node, int of_nodes)
@@ -99,8 +145,8 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         if (!shaped)
             continue;
 
-        const double k0 = modulus > 0.0 ? modulus * radius * radius / (4.0 * kFibreDensity * std::pow(rest, 4))
-                                        : kGravity * links * links * links / (double(params.bending_droop) * rest);
+        const double k0 = std::min(stiffness_over_mass(params, links, rest), shape.bend_most);
+        shape.turning_rate = std::max(shape.turning_rate, std::sqrt(k0 * share));
         std::vector<double> stiffness(size_t(nodes), 0.0);
         for (int e = 1; e + 1 < nodes; ++e)
             stiffness[size_t(e)] =

@@ -141,7 +141,8 @@ static int halvings(const DirectStrands& strands, const DirectStep& step, int bl
     const double hung = 9.81 * std::abs(double(params.forces_gravity)) +
                         double(step.info.wind.w) * (1.0 + params.forces_turbulence) + root_acceleration(step);
     most = std::max(most, (strands.nodes - 2) * hung / shortest);
-    const double need = double(step.now.seconds) * 2.0 * std::sqrt(most) / params.solver_courant;
+    const double waves = 2.0 * std::sqrt(most) / params.solver_courant;
+    const double need = double(step.now.seconds) * std::max(waves, double(step.info.turning_rate));
     const auto level_for = [&](double wanted)
     {
         int level = 0;
@@ -232,61 +233,108 @@ static double stiffness_of(const HairParams& params, int nodes, double rest)
     return of_material / std::pow(rest, 4);
 }
 
-// The implicit bending step: (M + h gain K) move = momentum - h gain K (x* - rest shape), energy
-// k/2 sum of w |second difference - rest bend|^2 (Bergou et al. 2006), twice at the clamp; x* are the prescribed nodes
-// where they end and the others where they begin.
+// Where the bend of each element is to be: parts along a frame that is carried from the root along the strand.
+static std::vector<Vec> bend_targets(const std::vector<Vec>& x, double rest, const std::vector<Vec>& rest_bend,
+                                     Vec along, Vec normal)
+{
+    std::vector<Vec> target(x.size(), Vec(0.0));
+    Vec t = along;
+    for (size_t e = 1; e + 1 < x.size(); ++e)
+    {
+        const Vec part = rest_bend[e], segment = x[e + 1] - x[e];
+        target[e] = part.x * t + part.y * normal + part.z * glm::cross(t, normal);
+        const Vec next = glm::length(segment) > 1e-6 * rest ? glm::normalize(segment) : t;
+        normal = transported(normal, t, next);
+        t = next;
+    }
+    return target;
+}
+
+// What bending takes off h gain times the forces on the nodes, over the stiffness: the slope of
+//   1/2 sum of w |second difference - target|^2
+// with all that hangs on the nodes; for curls by central differences.
+static std::vector<Vec> bending_slope(const std::vector<Vec>& x, const std::vector<double>& w, double rest, bool curled,
+                                      const std::vector<Vec>& rest_bend, Vec along, Vec normal, const Rounder& round)
+{
+    const size_t n = x.size();
+    std::vector<Vec> slope(n, Vec(0.0));
+    const std::vector<Vec> target =
+        curled ? bend_targets(x, rest, rest_bend, along, normal) : std::vector<Vec>(n, Vec(0.0));
+    double turning = 0.0; // what may be summed up in a twist
+    for (size_t e = 1; e + 1 < n; ++e)
+    {
+        const Vec off = x[e - 1] - 2.0 * x[e] + x[e + 1] - target[e];
+        slope[e - 1] += w[e] * off;
+        slope[e] -= 2.0 * w[e] * off;
+        slope[e + 1] += w[e] * off;
+        turning += w[e] * glm::length(target[e]) * glm::length(off) / rest;
+    }
+    if (!curled)
+        return slope;
+    const auto energy = [&](const std::vector<Vec>& at)
+    {
+        const std::vector<Vec> there = bend_targets(at, rest, rest_bend, along, normal);
+        double sum = 0.0;
+        for (size_t e = 1; e + 1 < n; ++e)
+        {
+            const Vec off = at[e - 1] - 2.0 * at[e] + at[e + 1] - there[e];
+            sum += 0.5 * w[e] * glm::dot(off, off);
+        }
+        return sum;
+    };
+    std::vector<Vec> at = x;
+    const double step = 1e-5 * rest;
+    for (size_t i = 2; i < n; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            at[i][axis] = x[i][axis] + step;
+            const double above = energy(at);
+            at[i][axis] = x[i][axis] - step;
+            slope[i][axis] = (above - energy(at)) / (2.0 * step) + round.one(8.0 * turning);
+            at[i][axis] = x[i][axis];
+        }
+    return slope;
+}
+
+// The implicit bending step: (M + h gain K) move = momentum - h gain times the slope of the energy at x*, the
+// prescribed nodes where they end and the others where they begin. K is of straight hair (Bergou et al. 2006), with the
+// element at the clamp counted twice.
 static void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& rest_bend, Vec along, Vec normal,
                  double h, double gain_now, double gain_steady, std::vector<Vec>& move, const Rounder& round)
 {
     const int n = strand.n;
-    const double k = stiffness_of(step.params, n, strand.rest);
+    const double k = std::min(stiffness_of(step.params, n, strand.rest), double(step.info.bend_most));
     std::vector<Vec> x = strand.x;
     x[0] += move[0];
     x[1] += move[1] + round(2.0 * glm::length(x[1]));
-    std::vector<Vec> target(size_t(n), Vec(0.0)); // of each second difference
-    if (step.curled)
-    {
-        Vec t = along;
-        for (int e = 1; e + 1 < n; ++e)
-        {
-            const Vec part = rest_bend[size_t(e)];
-            target[size_t(e)] = part.x * t + part.y * normal + part.z * glm::cross(t, normal);
-            const Vec segment = x[size_t(e + 1)] - x[size_t(e)];
-            const Vec next = glm::length(segment) > 1e-6 * strand.rest ? glm::normalize(segment) + round(4.0) : t;
-            normal = transported(normal, t, next) + round(16.0);
-            t = next;
-        }
-    }
-    // D: second differences of all nodes; W their weights.
-    Matrix d = zeros(n, n);
+    for (size_t i = 2; i < size_t(n); ++i)
+        x[i] += round(6.0 * strand.rest);
+    Matrix d = zeros(n, n); // second differences of all nodes
     std::vector<double> w(size_t(n), 0.0);
-    std::vector<Vec> off(size_t(n), Vec(0.0));
     for (int e = 1; e + 1 < n; ++e)
     {
         d[size_t(e)][size_t(e - 1)] = d[size_t(e)][size_t(e + 1)] = 1.0;
         d[size_t(e)][size_t(e)] = -2.0;
         w[size_t(e)] =
             (e == 1 ? 2.0 : 1.0) * std::exp(-double(step.params.bending_attenuation) * (e - 1) / double(n - 2));
-        off[size_t(e)] = x[size_t(e - 1)] - 2.0 * x[size_t(e)] + x[size_t(e + 1)] - target[size_t(e)];
-        off[size_t(e)] += round(6.0 * strand.rest + (e < 3 ? glm::length(x[1]) : 0.0));
     }
+    const std::vector<Vec> slope =
+        bending_slope(x, w, strand.rest, step.curled, rest_bend, along, glm::normalize(normal + round(8.0)), round);
     Matrix a = zeros(n - 2, n - 2);
     std::vector<Vec> right(size_t(n - 2));
     for (int i = 2; i < n; ++i)
     {
-        right[size_t(i - 2)] = move[size_t(i)];
+        right[size_t(i - 2)] = move[size_t(i)] - h * gain_now * k * slope[size_t(i)];
+        right[size_t(i - 2)] +=
+            round(4.0 * (glm::length(move[size_t(i)]) + h * gain_now * k * glm::length(slope[size_t(i)])));
         a[size_t(i - 2)][size_t(i - 2)] = mass(i, n, step.tip_mass);
         for (int e = 1; e + 1 < n; ++e)
-        {
-            const double force = k * w[size_t(e)] * d[size_t(e)][size_t(i)];
-            right[size_t(i - 2)] -= h * gain_now * force * off[size_t(e)];
             for (int j = 2; j < n; ++j)
             {
-                const double entry = h * gain_steady * force * d[size_t(e)][size_t(j)];
+                const double entry =
+                    h * gain_steady * k * w[size_t(e)] * d[size_t(e)][size_t(i)] * d[size_t(e)][size_t(j)];
                 a[size_t(i - 2)][size_t(j - 2)] += entry + round.one(8.0 * entry);
             }
-        }
-        right[size_t(i - 2)] += round(4.0 * glm::length(right[size_t(i - 2)]));
     }
     const std::vector<Vec> solution = solved(a, right);
     for (int i = 2; i < n; ++i)
