@@ -2,6 +2,7 @@
 
 #include "app/editor.h"
 #include "app/lab.h"
+#include "app/measure/measure.h"
 #include "app/report.h"
 #include "app/shot.h"
 #include "sim/error.h"
@@ -92,6 +93,8 @@ int run_command(int argc, char** argv)
         command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset")->required(style_needed);
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
+        command->add_option("--tolerance", options.tolerance,
+                            "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
         return command;
     };
     const auto with_device = [&](CLI::App* command)
@@ -123,6 +126,15 @@ int run_command(int argc, char** argv)
     report_command->add_flag("--json", wanted.json, "One JSON object");
     report_command->add_flag("--csv", wanted.csv, "One line a frame")->excludes("--json");
     report_command->add_option("-o,--output", options.output, "File to write instead of the terminal");
+
+    MeasureOptions measured;
+    CLI::App* measure_command =
+        with_device(app.add_subcommand("measure", "Measure accuracy against cost: tables and plots into a folder"));
+    measure_command->add_flag("--quick", measured.quick,
+                              "Fewer points: under a minute instead of a quarter of an hour");
+    measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
+        ->delimiter(',');
+    measure_command->add_option("-o,--output", options.output, "Folder to write into (default: measure)");
 
     CLI::App* check_command = app.add_subcommand("check", "Validate hairstyle files and what they name");
     check_command->add_option("STYLE", styles, "Hairstyle files")->required();
@@ -176,6 +188,8 @@ int run_command(int argc, char** argv)
         return report(options, wanted);
     if (lab_command->parsed())
         return lab(options, hung, lab_seconds->count() > 0);
+    if (measure_command->parsed())
+        return measure(options, measured);
     if (check_command->parsed())
         return run_check(styles);
     if (keys_command->parsed())

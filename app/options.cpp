@@ -43,6 +43,11 @@ Hairstyle load_style(const Options& options)
     Hairstyle style = load_hairstyle(find_style(options.style));
     for (const std::string& set : options.sets)
         assign(style, set);
+    std::string tolerance = options.tolerance;
+    if (!tolerance.empty() && tolerance.back() == '%')
+        tolerance.pop_back();
+    if (!tolerance.empty())
+        assign(style, "quality.tolerance=" + tolerance);
     return style;
 }
 

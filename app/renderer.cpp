@@ -75,7 +75,7 @@ FrameInput frame_input(const Simulation& simulation, const Camera& camera)
     frame.drawn_frames = solver.drawn_frames();
     frame.guide_positions = solver.guide_positions();
     frame.optical_depth = solver.optical_depth();
-    frame.params = simulation.style().params;
+    frame.params = simulation.params();
     frame.camera = camera;
     return frame;
 }

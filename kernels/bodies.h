@@ -135,12 +135,12 @@ static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose no
                    move->z - gap * n.z - share * slid.z);
 }
 
-// Root to tip, the last word of a substep: each node of the strands in `which` at its exact length from its parent and,
+// Root to tip, the last word of a substep: each node at its exact length from its parent and,
 // if that is inside a body, on the circle where that length meets the body's surface (its tangent plane, found again
 // from where that led). Where the parent lies too deep for that, straight outwards: then length has the say.
 // `inside[k]` is how deep node k may still be. Returns the strands that it found in contact.
 #define WALK_ROUNDS 4
-static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, const real* inside, whole which)
+static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, const real* inside)
 {
     whole touched = (whole)(0);
     for (int k = 2; k < NODES; ++k)
@@ -157,7 +157,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             whole on_head;
             const real gap = body_distance(bodies, head, at, &n, &on_head) + inside[k];
             const whole in = gap < 0.0f;
-            if (!any_lane(in & which))
+            if (!any_lane(in))
                 break;
             touched |= in;
             // Height of the parent over the plane, and the direction along the plane.
@@ -176,9 +176,9 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             d = select_points(d, moved, in);
             at = points(parent.x + d.x, parent.y + d.y, parent.z + d.z);
         }
-        x[k] = select_points(x[k], at, which);
+        x[k] = at;
     }
-    return touched & which;
+    return touched;
 }
 
 #endif

@@ -45,16 +45,4 @@ static inline Points repulsion_at(global const float* gradient, Points p, consta
     return points(LANES_LOAD(fx), LANES_LOAD(fy), LANES_LOAD(fz));
 }
 
-// The strands of the lanes from `strand` on have a node at p.
-static inline void add_density_lanes(global int* density, Points p, int strand, constant StepInfo* info)
-{
-    float px[WIDTH], py[WIDTH], pz[WIDTH];
-    LANES_STORE(p.x, px);
-    LANES_STORE(p.y, py);
-    LANES_STORE(p.z, pz);
-    for (int lane = 0; lane < WIDTH; ++lane)
-        if (strand + lane < info->guides)
-            add_density(density, px[lane], py[lane], pz[lane], info);
-}
-
 #endif

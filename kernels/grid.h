@@ -47,7 +47,21 @@ static inline void add_density(global int* density, float x, float y, float z, c
     if (p.voxel < 0)
         return;
     for (int corner = 0; corner < 8; ++corner)
-        atomic_add(&density[corner_voxel(p, corner)], convert_int_rte(corner_weight(p, corner) * DENSITY_ONE));
+        atomic_add(&density[corner_voxel(p, corner)],
+                   convert_int_rte(corner_weight(p, corner) * (float)info->density_unit));
+}
+
+// Adds those nodes of WIDTH strands, from `strand` on, that feed the density; reads them where they have just been
+// stored.
+static inline void add_strands_density(global int* density, global const float* position, int strand,
+                                       constant StepInfo* info)
+{
+    for (int lane = 0; lane < WIDTH && strand + lane < info->guides; ++lane)
+        for (int i = density_first(strand + lane, info->density_stride); i < NODES; i += info->density_stride)
+        {
+            global const float* at = position + strand_value(strand + lane, i, 0, NODES);
+            add_density(density, at[0], at[LANES], at[2 * LANES], info);
+        }
 }
 
 // Trilinear value of one component of the gradient, which lies component after component.

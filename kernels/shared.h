@@ -79,6 +79,8 @@ typedef struct StepInfo
     int teleport;       // the head has just jumped: strands are carried along rigidly
     int last_substep;   // of its step: then the nodes are added to the density
     int body_density;   // of what no light passes, in fixed-point units
+    int density_stride; // of each strand's nodes one in so many feeds the density
+    int density_unit;   // what such a node adds, in fixed-point units: the sum is that of all nodes
     int sweep_axis;     // 0, 1, 2: main axis of the light's sweep
     int sweep_from;     // first slice of the sweep
     int sweep_sign;     // -1 or +1: from slice to slice
@@ -105,6 +107,18 @@ typedef struct StepPath
 // One node adds this much to the density, shared out over eight voxels: fixed point, so that the order of the additions
 // does not matter and equal input gives equal bytes.
 #define DENSITY_ONE 4096
+
+// At most about so many nodes feed the density: adding 1.6 million takes longer than moving them, and a grid of 64^3
+// voxels cannot tell the difference.
+#define DENSITY_NODES 65536
+
+// The first node of a strand that feeds the density, from 1 to `stride`. From strand to strand it moves on by the
+// golden section of the stride, which spreads any number of neighbours evenly (Weyl's sequence).
+static inline int density_first(int strand, int stride)
+{
+    const unsigned part = ((unsigned)strand * 2654435769u) >> 16;
+    return 1 + (int)((part * (unsigned)stride) >> 16);
+}
 
 // Spheres that a style and its head may have together.
 #define MOST_COLLIDERS 512

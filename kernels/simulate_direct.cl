@@ -60,7 +60,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                             global const float* root_direction, global const float* segment_length,
                             global const float* rest_position, global const float* rest_bend,
                             global const float* root_normal, global const float* gradient, global int* density,
-                            global int* resets, global int* faults, constant float4* bodies, constant StepPath* path,
+                            global float* moved, global int* resets, global int* faults, constant float4* bodies, constant StepPath* path,
                             constant HairParams* params, constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
@@ -117,7 +117,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     bodies_near(&near, bodies, info, begin, end, x[1], rest * (float)NODES);
     // Hair that starts inside a body is let out at a bounded speed.
     real inside[NODES];
-    for (int i = 2; i < NODES; ++i)
+    for (int i = 2; i < NODES && near.near_count > 0; ++i)
     {
         Points away;
         whole on_head;
@@ -180,7 +180,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #endif
 
 #ifdef CONTACT
-        for (int i = 2; i < NODES; ++i)
+        for (int i = 2; i < NODES && near.near_count > 0; ++i)
         {
             inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
             push_and_rub(&near, last, now, x[i], &move[i], inside[i], params->forces_friction);
@@ -201,13 +201,16 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             bad |= rescue(x, predicted, move, pull, rest, failed);
 
 #ifdef CONTACT
-        Points walked[NODES];
-        for (int i = 1; i < NODES; ++i)
-            walked[i] = plus(x[i], move[i]);
-        const whole touched = walk_out(&near, now, walked, rest, inside, (whole)(-1));
-        if (any_lane(touched))
-            for (int i = 2; i < NODES; ++i)
-                move[i] = select_points(move[i], minus(walked[i], x[i]), touched);
+        if (near.near_count > 0)
+        {
+            Points walked[NODES];
+            for (int i = 1; i < NODES; ++i)
+                walked[i] = plus(x[i], move[i]);
+            const whole touched = walk_out(&near, now, walked, rest, inside);
+            if (any_lane(touched))
+                for (int i = 2; i < NODES; ++i)
+                    move[i] = select_points(move[i], minus(walked[i], x[i]), touched);
+        }
 #endif
 
         const float per_second = 1.0f / h;
@@ -224,13 +227,17 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     if (any_lane(bad))
         start_again(bad, end, rest_position + first, head_velocity, x, v, pull);
 
+    real farthest2 = (real)(0.0f);
     for (int i = 0; i < NODES; ++i)
     {
+        const Points by = minus(x[i], load_lanes(position + first + i * 3 * LANES));
+        farthest2 = fmax(farthest2, dot_lanes(by, by));
         x[i] = points(x[i].x - info->origin_move.x, x[i].y - info->origin_move.y, x[i].z - info->origin_move.z);
         store_lanes(x[i], position + first + i * 3 * LANES);
         store_lanes(v[i], velocity + first + i * 3 * LANES);
         LANES_STORE(pull[i], multiplier + first_scalar + i * LANES);
     }
+    LANES_STORE(fmax(LANES_LOAD(moved + strand), sqrt(farthest2)), moved + strand);
     LANES_STORE(select(tensest, (real)(0.0f), bad | !(tensest < 1e30f)), tension_next + strand);
     if (strand % LANES == 0)
         pace_next[block] = 1 + level;
@@ -250,7 +257,6 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 
 #ifdef DENSITY
     if (info->last_substep)
-        for (int i = 1; i < NODES; ++i)
-            add_density_lanes(density, x[i], strand, info);
+        add_strands_density(density, position, strand, info);
 #endif
 }

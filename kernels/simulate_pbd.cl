@@ -165,7 +165,6 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
 #ifdef DENSITY
     if (info->last_substep)
-        for (int i = 1; i < NODES; ++i)
-            add_density_lanes(density, points(x[i], y[i], z[i]), strand, info);
+        add_strands_density(density, position, strand, info);
 #endif
 }

@@ -88,6 +88,21 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
     return weights / (weights.x + weights.y + weights.z);
 }
 
+DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights)
+{
+    const glm::vec3 of[3] = {directions[guides.x], directions[guides.y], directions[guides.z]};
+    const glm::vec3 w = without_opposed(weights, of);
+    // The heaviest guide first: the others may lose their weight to it (kernels/interpolate_multi.cl).
+    int order[3] = {0, 1, 2};
+    std::stable_sort(order, order + 3, [&](int i, int j) { return w[i] > w[j]; });
+    DrawnStrand strand = {};
+    strand.weights = F4(w[order[0]], w[order[1]], w[order[2]], 0.0f);
+    strand.guide0 = int(guides[order[0]]);
+    strand.guide1 = int(guides[order[1]]);
+    strand.guide2 = int(guides[order[2]]);
+    return strand;
+}
+
 static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, const std::vector<glm::vec3>& directions,
                        int count)
 {
@@ -115,17 +130,8 @@ static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, co
         const glm::vec3 weights(1.0f - b - c, b, c);
         const glm::vec3 root =
             scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z;
-        const glm::vec3 of[3] = {directions[t.x], directions[t.y], directions[t.z]};
-        const glm::vec3 w = without_opposed(weights, of);
-        DrawnStrand strand = {};
+        DrawnStrand strand = mixed_of(directions, t, weights);
         strand.root = F4(root.x, root.y, root.z, 0.0f);
-        // The heaviest guide first: the others may lose their weight to it (kernels/interpolate_multi.cl).
-        int order[3] = {0, 1, 2};
-        std::stable_sort(order, order + 3, [&](int i0, int i1) { return w[i0] > w[i1]; });
-        strand.weights = F4(w[order[0]], w[order[1]], w[order[2]], 0.0f);
-        strand.guide0 = int(t[order[0]]);
-        strand.guide1 = int(t[order[1]]);
-        strand.guide2 = int(t[order[2]]);
         groom.drawn.push_back(strand);
     }
 }
@@ -192,6 +198,49 @@ static void grow_single(Groom& groom, const HairParams& p, const Scalp& scalp, i
     }
 }
 
+// Nodes of a strand whose own shape is waves about a straight axis: equally far apart along the curve, which is longer
+// than the axis. Returns the length of its segments, m.
+static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
+                          std::vector<glm::dvec3>& nodes)
+{
+    const glm::dvec3 binormal = glm::cross(along, normal);
+    const auto at = [&](double s) // s: along the axis, m
+    {
+        const double share = s / double(p.strand_length), turns = 2.0 * std::numbers::pi * s;
+        const auto onset = [&](double begin) // as kernels/strand_curve.h lets waves set in
+        {
+            const double u = std::clamp(4.0 * (share - begin), 0.0, 1.0);
+            return u * u * (3.0 - 2.0 * u);
+        };
+        return root + along * s +
+               normal * (double(p.wave_normal_amplitude) * onset(p.wave_normal_begin) *
+                         std::sin(turns * double(p.wave_normal_frequency))) +
+               binormal * (double(p.wave_binormal_amplitude) * onset(p.wave_binormal_begin) *
+                           std::cos(turns * double(p.wave_binormal_frequency)));
+    };
+    const int links = p.strand_nodes - 2, fine = 64 * links;
+    std::vector<glm::dvec3> curve;
+    std::vector<double> length_at = {0.0};
+    for (int i = 0; i <= fine; ++i)
+    {
+        curve.push_back(at(double(p.strand_length) * i / fine));
+        if (i > 0)
+            length_at.push_back(length_at.back() + glm::distance(curve[size_t(i)], curve[size_t(i - 1)]));
+    }
+    const double segment = length_at.back() / links;
+    nodes = {root - along * segment, root};
+    size_t piece = 0;
+    for (int k = 1; k <= links; ++k)
+    {
+        const double wanted = segment * k;
+        while (piece + 2 < length_at.size() && length_at[piece + 1] < wanted)
+            ++piece;
+        const double within = (wanted - length_at[piece]) / std::max(1e-12, length_at[piece + 1] - length_at[piece]);
+        nodes.push_back(glm::mix(curve[piece], curve[piece + 1], std::clamp(within, 0.0, 1.0)));
+    }
+    return segment;
+}
+
 Groom grow(const HairParams& p, const Scalp& scalp)
 {
     Groom groom;
@@ -219,6 +268,10 @@ Groom grow(const HairParams& p, const Scalp& scalp)
     groom.root_position.resize(size_t(groom.blocks) * 3 * LANES);
     groom.root_direction.resize(size_t(groom.blocks) * 3 * LANES);
     groom.segment_length.resize(size_t(groom.blocks) * LANES);
+    groom.hold = p.bending_hold;
+    const bool waves = waves_are_shape(p);
+    if (waves)
+        groom.natural_position.resize(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
         const size_t g = size_t(s < groom.guides ? s : 0);
@@ -230,6 +283,19 @@ Groom grow(const HairParams& p, const Scalp& scalp)
         }
         // All segments of a strand are equally long; the one under the scalp does not count towards its length.
         groom.segment_length[size_t(s)] = p.strand_length / float(groom.nodes - 2);
+        if (!waves)
+            continue;
+        const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = directions[g];
+        const glm::vec3 outward = scalp.normals[g] - directions[g] * glm::dot(scalp.normals[g], directions[g]);
+        const glm::vec3 side = glm::cross(directions[g], glm::vec3(0.0f, 1.0f, 0.0f));
+        const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
+        std::vector<glm::dvec3> nodes;
+        groom.segment_length[size_t(s)] =
+            float(shape_waves(p, root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
+        groom.longest = std::max(groom.longest, groom.segment_length[size_t(s)] * float(groom.nodes - 2));
+        for (int k = 0; k < groom.nodes; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] = float(nodes[size_t(k)][axis]);
     }
 
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));

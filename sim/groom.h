@@ -17,9 +17,13 @@ struct Groom
     std::vector<float> root_position;  // [block][axis][lane], node 1, in the head's frame, m
     std::vector<float> root_direction; // [block][axis][lane], from node 0 to node 1, unit length, in the head's frame
     std::vector<float> segment_length; // [block][lane], m
-    std::vector<float> rest_position;  // [block][node][axis][lane], in the head's frame, m; empty: straight
-    float tip_mass = 0.5f;             // of the last node: it stands for half a segment
-    std::vector<DrawnStrand> drawn;    // mixed ones first
+    // Shapes, [block][node][axis][lane], in the head's frame, m: only the directions of their segments count.
+    std::vector<float> natural_position; // where nothing weighs on the strands; empty: straight
+    std::vector<float> rest_position;    // where they begin, at rest under gravity; empty: the natural one
+    std::vector<float> rest_multiplier;  // [block][node][lane], 1/s^2: tensions there, where known (bodies bear weight)
+    float hold = 1.0f;                   // of rest_position, that the strands take as their own
+    float tip_mass = 0.5f;               // of the last node: it stands for half a segment
+    std::vector<DrawnStrand> drawn;      // mixed ones first
     int drawn_multi = 0;
     float longest = 0.0f;   // strand, m
     float extent = 0.0f;    // of the scalp, m
@@ -32,6 +36,10 @@ struct Groom
 // are spread over the triangles by area, copies equally over the guides. Everything random hangs on
 // params.interpolation_seed.
 Groom grow(const HairParams& params, const Scalp& scalp);
+
+// A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are
+// left to the caller. `directions` are all guides' root directions.
+DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights);
 
 // A uniform number in [0, 1) that depends on nothing but its arguments. PCG output of a hashed state, O'Neill 2014.
 float random01(int seed, int index, int channel);

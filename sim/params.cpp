@@ -152,9 +152,20 @@ void set_numbers(HairParams& params, const ParamInfo& info, const double values[
 
 static float linear_of_srgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
+bool waves_are_shape(const HairParams& p)
+{
+    if (p.solver_kind != 0 || (p.wave_normal_amplitude <= 0.0f && p.wave_binormal_amplitude <= 0.0f))
+        return false;
+    const float frequency = std::max(p.wave_normal_amplitude > 0.0f ? p.wave_normal_frequency : 0.0f,
+                                     p.wave_binormal_amplitude > 0.0f ? p.wave_binormal_frequency : 0.0f);
+    return frequency > 0.0f && float(p.strand_nodes - 2) >= 8.0f * frequency * p.strand_length;
+}
+
 HairParams device_params(const HairParams& authored)
 {
     HairParams params = authored;
+    if (waves_are_shape(authored))
+        params.wave_normal_amplitude = params.wave_binormal_amplitude = 0.0f; // nothing is left to lay on
     for (const ParamInfo& info : param_table())
     {
         if (info.on_host() || info.kind == Kind::INT || info.kind == Kind::CHOICE)

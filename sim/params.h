@@ -99,6 +99,10 @@ void get_numbers(const HairParams& params, const ParamInfo& info, float out[3]);
 // Takes them after checking. Throws Error "strand.length is -1, but must lie in [0.002, 1.5] m".
 void set_numbers(HairParams& params, const ParamInfo& info, const double values[3]);
 
+// Are the waves that `params` asks for bends of the strands themselves, and not laid on when they are drawn? They are
+// where eight nodes or more make a wave, and the solver knows bends.
+bool waves_are_shape(const HairParams& params);
+
 // Radians for degrees, linear for sRGB (IEC 61966-2-1), unit length for directions: what kernels and shaders read.
 HairParams device_params(const HairParams& authored);
 

@@ -28,24 +28,63 @@ static Vec carried(Vec normal, Vec t, Vec next)
     return glm::dot(normal, normal) > 1e-6 ? glm::normalize(normal) : any_normal(next);
 }
 
-static std::vector<Vec> straight(Vec root, Vec direction, double rest, int nodes)
+static Vec vector_of(const std::vector<float>& from, int strand, int node, int nodes)
 {
-    std::vector<Vec> x;
-    for (int k = 0; k < nodes; ++k)
-        x.push_back(root + direction * (rest * (k - 1)));
+    Vec v;
+    for (int axis = 0; axis < 3; ++axis)
+        v[axis] = from[size_t(strand_value(strand, node, axis, nodes))];
+    return v;
+}
+
+static void put(std::vector<float>& to, int strand, int node, int nodes, Vec v)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        to[size_t(strand_value(strand, node, axis, nodes))] = float(v[axis]);
+}
+
+// The nodes of a strand with segments of length `rest` that go the way those of `shape` go; straight without one.
+static std::vector<Vec> chain(const std::vector<float>& shape, int strand, int nodes, Vec root, Vec direction,
+                              double rest)
+{
+    std::vector<Vec> x = {root - direction * rest, root};
+    for (int k = 2; k < nodes; ++k)
+    {
+        Vec a = direction;
+        if (!shape.empty())
+            a = vector_of(shape, strand, k, nodes) - vector_of(shape, strand, k - 1, nodes);
+        const double size = glm::length(a);
+        x.push_back(x.back() + (size > 1e-12 ? a / size : direction) * rest);
+    }
     return x;
+}
+
+// Second differences of the nodes in the frame carried along them: kernels/direct.h, add_bending.
+static std::vector<Vec> bends(const std::vector<Vec>& x, const std::vector<Vec>& off, Vec normal)
+{
+    std::vector<Vec> of(x.size(), Vec(0.0));
+    Vec tangent = glm::normalize(x[1] - x[0]);
+    for (size_t e = 1; e + 1 < x.size(); ++e)
+    {
+        const Vec after = x[e + 1] - x[e], bend = after - (x[e] - x[e - 1]) - off[e];
+        of[e] = {glm::dot(bend, tangent), glm::dot(bend, normal), glm::dot(bend, glm::cross(tangent, normal))};
+        const Vec next = glm::normalize(after);
+        normal = carried(normal, tangent, next);
+        tangent = next;
+    }
+    return of;
 }
 
 // How far each element's second difference must be off its natural one for the strand to carry its own weight: force
 // balance of each node, from the tip, across the segment that leads to it; what is along it is tension.
-//   gravity + stiffness (-off[i-1] + 2 off[i] - off[i+1]) - pull[i] a[i] + pull[i+1] a[i+1] = 0
+//   gravity + stiffness (-off[i-1] + 2 off[i] - off[i+1]) + push[i] - push[i+1] - pull[i] a[i] + pull[i+1] a[i+1] = 0
+// where push[i] is what elements from i on, as they turn their frames, do to segment i: kernels/direct.h.
 static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffness, double tip_mass, Vec gravity,
                     std::vector<Vec>& off, std::vector<double>& pull)
 {
     const int last = int(x.size()) - 1;
     off.assign(x.size() + 1, Vec(0.0));
     pull.assign(x.size() + 1, 0.0);
-    std::vector<Vec> force(x.size() + 2, Vec(0.0)), push(x.size() + 2, Vec(0.0));
+    std::vector<Vec> force(x.size() + 2, Vec(0.0)), push(x.size() + 2, Vec(0.0)); // stiffness times off
     double twist = 0.0;
     Vec beyond(0.0);
     const auto segment = [&](int i) { return x[size_t(i)] - x[size_t(i - 1)]; };
@@ -54,7 +93,6 @@ static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffn
         const Vec a = segment(i), t = glm::normalize(a), before = glm::normalize(segment(i - 1));
         if (i < last)
         {
-            // What the element about node i turns its frame by, as kernels/direct.h does.
             const Vec torque = glm::cross(segment(i + 1) - a, force[size_t(i)]);
             twist += glm::dot(torque, t);
             const Vec here = twist / std::max(1.0 + glm::dot(before, t), 0.05) * glm::cross(before, t);
@@ -73,6 +111,28 @@ static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffn
     }
 }
 
+// The implicit step holds what bending resists to, but not what frames do that turn with the strand: kernels/direct.h
+// adds that explicitly. It is stable while h^2 stiffness share < 1. The bound, with some room, is of the eigenvalues of
+// helices of 5 to 20 segments a turn and 14 to 62 in all; `bend` is the largest second difference, in segments.
+static double explicit_share(double bend) { return 0.35 * bend * bend + std::pow(bend, 5); }
+
+// The largest second difference of a shape, in segments, from node 1 on.
+static double tightest_of(const std::vector<float>& shape, const Groom& groom)
+{
+    double most = 0.0;
+    for (int s = 0; s < groom.blocks * LANES && !shape.empty(); ++s)
+        for (int e = 2; e + 1 < groom.nodes; ++e)
+        {
+            const Vec middle = vector_of(shape, s, e, groom.nodes);
+            const Vec a = middle - vector_of(shape, s, e - 1, groom.nodes);
+            const Vec b = vector_of(shape, s, e + 1, groom.nodes) - middle;
+            if (glm::length(a) > 1e-12 && glm::length(b) > 1e-12)
+                most = std::max(most, glm::distance(glm::normalize(a), glm::normalize(b)));
+        }
+    return most;
+}
+
+// Stiffness over mass, 1/s^2, and of each element: kernels/direct.h.
 static double stiffness_over_mass(const HairParams& params, int links, double rest)
 {
     const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
@@ -80,100 +140,84 @@ static double stiffness_over_mass(const HairParams& params, int links, double re
                          : kGravity * links * links * links / (double(params.bending_droop) * rest);
 }
 
-// The implicit step holds what bending resists to, but not what frames do that turn with the strand: kernels/direct.h
-// adds that explicitly. It is stable while h^2 stiffness share < 1. The bound, with some room, is of the eigenvalues of
-// helices of 5 to 20 segments a turn and 14 to 62 in all; `bend` is the largest second difference, in segments.
-static double explicit_share(double bend) { return 0.35 * bend * bend + std::pow(bend, 5); }
+static std::vector<double> stiffnesses(const HairParams& params, int nodes, double all)
+{
+    const int links = nodes - 2;
+    std::vector<double> of(size_t(nodes), 0.0);
+    for (int e = 1; e + 1 < nodes; ++e)
+        of[size_t(e)] = all * (e == 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * (e - 1) / links);
+    return of;
+}
 
 RestShape make_rest_shape(const HairParams& params, const Groom& groom)
 {
     RestShape shape;
-    const int nodes = groom.nodes, links = nodes - 2;
+    const int nodes = groom.nodes;
     const size_t strands = size_t(groom.blocks) * LANES;
     shape.position.resize(strands * size_t(nodes) * 3);
     shape.bend.resize(shape.position.size());
+    shape.multiplier = groom.rest_multiplier;
     shape.multiplier.resize(strands * size_t(nodes));
     shape.normal.resize(strands * 3);
-    double tightest = 0.0;
-    for (int s = 0; s < groom.blocks * LANES && !groom.rest_position.empty(); ++s)
-    {
-        const auto axis_of = [&](int node, int axis)
-        { return double(groom.rest_position[size_t(strand_value(s, node, axis, nodes))]); };
-        for (int e = 2; e + 1 < nodes; ++e)
-        {
-            Vec a, b;
-            for (int axis = 0; axis < 3; ++axis)
-            {
-                a[axis] = axis_of(e, axis) - axis_of(e - 1, axis);
-                b[axis] = axis_of(e + 1, axis) - axis_of(e, axis);
-            }
-            if (glm::length(a) > 1e-12 && glm::length(b) > 1e-12)
-                tightest = std::max(tightest, glm::distance(glm::normalize(a), glm::normalize(b)));
-        }
-    }
+    const bool at_rest = !groom.rest_position.empty();
+    const double hold = at_rest ? groom.hold : 0.0;
+    const Vec gravity(0.0, -kGravity * params.forces_gravity, 0.0);
+    const double tightest = std::max(tightest_of(groom.natural_position, groom),
+                                     hold > 0.0 ? tightest_of(groom.rest_position, groom) : 0.0);
     const double share = explicit_share(tightest);
     if (tightest > 1e-5)
         shape.bend_most = 1.0 / (share * kFinest * kFinest);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
-        const auto of = [&](const std::vector<float>& from, int node, int of_nodes)
-        {
-            Vec v;
-            for (int axis = 0; axis < 3; ++axis)
-                v[axis] = from[size_t(strand_value(s, node, axis, of_nodes))];
-            return v;
-        };
-        const auto put = [&](std::vector<float>& to, int node, int of_nodes, Vec v)
-        {
-            for (int axis = 0; axis < 3; ++axis)
-                to[size_t(strand_value(s, node, axis, of_nodes))] = float(v[axis]);
-        };
-        const Vec root = of(groom.root_position, 0, 1), direction = of(groom.root_direction, 0, 1);
+        const Vec root = vector_of(groom.root_position, s, 0, 1);
+        const Vec direction = glm::normalize(vector_of(groom.root_direction, s, 0, 1));
         const double rest = std::max(1e-9, double(groom.segment_length[size_t(s)]) * params.strand_spacing);
-        std::vector<Vec> x = straight(root, direction, rest, nodes);
-        const bool shaped = !groom.rest_position.empty();
-        for (int k = 2; shaped && k < nodes; ++k) // at this spacing
-        {
-            const Vec a = of(groom.rest_position, k, nodes) - of(groom.rest_position, k - 1, nodes);
-            const double size = glm::length(a);
-            x[size_t(k)] = x[size_t(k - 1)] + (size > 1e-12 ? a / size : direction) * rest;
-        }
+        const double stiffness = std::min(stiffness_over_mass(params, nodes - 2, rest), shape.bend_most);
+        shape.turning_rate = std::max(shape.turning_rate, std::sqrt(stiffness * share));
+        const std::vector<Vec> natural = chain(groom.natural_position, s, nodes, root, direction, rest);
+        const std::vector<Vec> x = at_rest ? chain(groom.rest_position, s, nodes, root, direction, rest) : natural;
+        const Vec normal = any_normal(direction);
+        put(shape.normal, s, 0, 1, normal);
         for (int k = 0; k < nodes; ++k)
-            put(shape.position, k, nodes, x[size_t(k)]);
-        const Vec root_normal = any_normal(direction);
-        put(shape.normal, 0, 1, root_normal);
-        if (!shaped)
-            continue;
+            put(shape.position, s, k, nodes, x[size_t(k)]);
 
-        const double k0 = std::min(stiffness_over_mass(params, links, rest), shape.bend_most);
-        shape.turning_rate = std::max(shape.turning_rate, std::sqrt(k0 * share));
-        std::vector<double> stiffness(size_t(nodes), 0.0);
-        for (int e = 1; e + 1 < nodes; ++e)
-            stiffness[size_t(e)] =
-                k0 * (e == 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * (e - 1) / links);
-        std::vector<Vec> off;
-        std::vector<double> pull;
-        hold_up(x, stiffness, groom.tip_mass, {0.0, -kGravity * params.forces_gravity, 0.0}, off, pull);
-        Vec tangent = direction, normal = root_normal;
+        std::vector<Vec> off(x.size(), Vec(0.0));
+        std::vector<Vec> bend = bends(natural, off, normal);
+        if (at_rest)
+        {
+            std::vector<double> pull;
+            hold_up(x, stiffnesses(params, nodes, stiffness), groom.tip_mass, gravity, off, pull);
+            for (Vec& held : off)
+            {
+                const double size = glm::length(held), most = kMostBend * rest;
+                held *= size > most ? most / size : 1.0;
+            }
+            const std::vector<Vec> held = bends(x, off, normal);
+            for (size_t e = 0; e < bend.size(); ++e)
+                bend[e] = (1.0 - hold) * bend[e] + hold * held[e];
+            for (int k = 2; k < nodes && groom.rest_multiplier.empty(); ++k)
+                shape.multiplier[size_t((s / LANES * nodes + k) * LANES + s % LANES)] = float(pull[size_t(k)]);
+        }
         for (int e = 1; e + 1 < nodes; ++e)
         {
-            const Vec before = x[size_t(e)] - x[size_t(e - 1)], after = x[size_t(e + 1)] - x[size_t(e)];
-            Vec held = off[size_t(e)];
-            const double size = glm::length(held), most = kMostBend * rest;
-            if (size > most)
-                held *= most / size;
-            const Vec bend = after - before - held;
-            const Vec binormal = glm::cross(tangent, normal);
-            put(shape.bend, e, nodes, {glm::dot(bend, tangent), glm::dot(bend, normal), glm::dot(bend, binormal)});
-            shape.curled |= glm::length(bend) > 1e-5 * rest;
-            const Vec next = after / rest;
-            normal = carried(normal, tangent, next);
-            tangent = next;
+            put(shape.bend, s, e, nodes, bend[size_t(e)]);
+            shape.curled |= glm::length(bend[size_t(e)]) > 1e-5 * rest;
         }
-        for (int k = 2; k < nodes; ++k)
-            shape.multiplier[size_t((s / LANES * nodes + k) * LANES + s % LANES)] = float(pull[size_t(k)]);
     }
     return shape;
+}
+
+std::vector<float> in_head_frame(const float* position, const Groom& groom, const glm::dquat& turn)
+{
+    std::vector<float> out(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
+    const glm::dquat back = glm::conjugate(turn);
+    for (int s = 0; s < groom.blocks * LANES; ++s)
+        for (int k = 0; k < groom.nodes; ++k)
+        {
+            const float* at = position + strand_value(s, k, 0, groom.nodes);
+            put(out, s, k, groom.nodes, back * Vec(at[0], at[LANES], at[2 * LANES]));
+        }
+    return out;
 }
 
 } // namespace coif

@@ -2,6 +2,8 @@
 #include "sim/groom.h"
 #include "sim/params.h"
 
+#include <glm/gtc/quaternion.hpp>
+
 #include <vector>
 
 namespace coif
@@ -21,9 +23,14 @@ struct RestShape
     double turning_rate = 0.0;     // 1/s: longer substeps than its inverse are too long for the curls
 };
 
-// The natural shape for which groom.rest_position is at rest under gravity with the head upright, so that nothing sags
-// at the start: inverse statics from tip to root. `params` as the device reads them. A strand too limp to be held by
-// less than `kMostBend` of a segment a node keeps what it can of it and sags by the rest.
+// What strands are bent towards: groom.natural_position by 1 - groom.hold, and by groom.hold the shape for which
+// groom.rest_position is at rest under gravity with the head upright, so that nothing sags at the start: inverse
+// statics from tip to root. `params` as the device reads them. A strand too limp to be held up by half a segment's bend
+// a node keeps what it can of it and sags by the rest.
 RestShape make_rest_shape(const HairParams& params, const Groom& groom);
+
+// Guides as the solver has them, relative to the head's origin, taken back into the head's frame: a groom's
+// rest_position.
+std::vector<float> in_head_frame(const float* position, const Groom& groom, const glm::dquat& turn);
 
 } // namespace coif

@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include "sim/error.h"
+#include "sim/rest_shape.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -57,16 +58,84 @@ std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets
     return all;
 }
 
-Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), style_(std::move(style))
+static bool same_waves(const Hairstyle& a, const Hairstyle& b)
 {
-    assets_ = load_assets(style_);
-    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
-    solver_->set_colliders(all_colliders(style_, assets_));
+    return std::ranges::all_of(param_table(), [&](const ParamInfo& info)
+                               { return info.group != std::string_view("wave") || same_value(a, b, info); });
 }
 
-void Simulation::set_style(const Hairstyle& style, bool reload)
+Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), authored_(std::move(style))
+{
+    assets_ = load_assets(authored_);
+    style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
+    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
+    solver_->set_colliders(all_colliders(style_, assets_));
+    drape();
+}
+
+// Lets hair fall to where it rests, and begins there: nothing sags when it is first seen. First in air thick enough to
+// stop it soon and on slippery bodies, so that what friction holds later it holds with some to spare; then as it is.
+// What hair holds of that shape (bending.hold) it finds again with its own weight on it.
+void Simulation::drape()
+{
+    if (style_.params.solver_kind != 0)
+        return;
+    HairParams thick = style_.params;
+    thick.forces_drag = std::max(thick.forces_drag, 15.0f); // near critical for the slowest swing of 0.2 m
+    thick.forces_friction *= 0.5f;
+    constexpr int kLookEvery = 16, kMost = 320;                   // steps
+    const double calm = 0.001 * double(solver_->groom().longest); // m/s
+    for (const bool again : {false, true})
+    {
+        if (again && style_.params.bending_hold == 0.0f)
+            break;
+        for (const HairParams& params : {thick, style_.params})
+        {
+            solver_->set_params(params);
+            solver_->fastest();
+            for (int i = 1; i <= kMost; ++i)
+            {
+                solver_->step({{hand_, time_, 1.0f / 60.0f}});
+                if (i % kLookEvery)
+                    continue;
+                solver_->take_times(); // lets the queue's uploads go
+                if (solver_->fastest() < calm)
+                    break;
+            }
+        }
+        Groom groom = solver_->groom();
+        const Mapped position = solver_->guide_positions();
+        groom.rest_position = in_head_frame(position.as<float>(), groom, hand_.turn);
+        groom.rest_multiplier = solver_->multipliers();
+        solver_->set_groom(groom);
+    }
+    solver_->take_times();
+}
+
+// Does nothing differ that what a tolerance asks for hangs on?
+static bool same_hair(const Hairstyle& a, const Hairstyle& b)
+{
+    return std::ranges::all_of(param_table(),
+                               [&](const ParamInfo& info)
+                               {
+                                   const bool seen_only =
+                                       info.effect == Effect::VIEW && info.path() != "smoothing.subdivisions";
+                                   return seen_only || same_value(a, b, info);
+                               });
+}
+
+void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
     bool meshes = reload, regrow = reload;
+    Quality quality = quality_;
+    Hairstyle style = authored;
+    if (reload || !same_hair(authored, authored_))
+        style = meet_tolerance(device_, authored, reload ? load_assets(authored).scalp : assets_.scalp, quality);
+    else
+        for (const char* kept :
+             {"solver.courant", "solver.substeps", "strand.nodes", "grid.resolution", "smoothing.subdivisions"})
+            if (!quality_.rungs.empty())
+                copy_value(style_, style, *find_param(kept));
     for (const ParamInfo& info : param_table())
     {
         if (info.effect == Effect::LIVE || info.effect == Effect::VIEW || same_value(style, style_, info))
@@ -75,8 +144,23 @@ void Simulation::set_style(const Hairstyle& style, bool reload)
         meshes |= info.kind == Kind::TEXT;
     }
     Assets fresh = meshes ? load_assets(style) : Assets{}; // may throw; nothing has changed yet
+    const bool waves = waves_are_shape(style.params);
+    regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
+    bool refall = false;
     if (regrow)
-        solver_->set_groom(grow(style.params, meshes ? fresh.scalp : assets_.scalp));
+    {
+        Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp);
+        const Groom& old = solver_->groom();
+        // Strands that go on where they are begin again, if ever, where they did.
+        refall = groom.guides != old.guides || groom.nodes != old.nodes || style.params.bending_hold > 0.0f ||
+                 style_.params.bending_hold > 0.0f;
+        if (!refall)
+        {
+            groom.rest_position = old.rest_position;
+            groom.rest_multiplier = old.rest_multiplier;
+        }
+        solver_->set_groom(groom);
+    }
     solver_->set_params(style.params);
     solver_->set_colliders(all_colliders(style, meshes ? fresh : assets_));
     if (meshes)
@@ -86,7 +170,14 @@ void Simulation::set_style(const Hairstyle& style, bool reload)
         rate_since_ = time_; // time goes on from here at the new rate
         steps_since_ = steps_;
     }
+    authored_ = authored;
     style_ = style;
+    quality_ = quality;
+    if (refall)
+    {
+        solver_->reset(solver_->head());
+        drape();
+    }
 }
 
 void Simulation::play(std::optional<Motion> motion)

@@ -1,6 +1,7 @@
 #pragma once
 #include "sim/hairstyle.h"
 #include "sim/mesh.h"
+#include "sim/quality.h"
 #include "sim/solver.h"
 
 #include <memory>
@@ -30,7 +31,12 @@ class Simulation
     // Throws Error for what the style names and cannot be had.
     Simulation(const Device& device, Hairstyle style);
 
-    const Hairstyle& style() const { return style_; }
+    const Hairstyle& style() const { return authored_; }
+    const HairParams& params() const
+    {
+        return style_.params;
+    } // as they are simulated: quality.tolerance has had its say
+    const Quality& quality() const { return quality_; }
     const Assets& assets() const { return assets_; }
     Solver& solver() { return *solver_; }
     const Solver& solver() const { return *solver_; }
@@ -62,8 +68,11 @@ class Simulation
     glm::dvec3 jumped() const { return solver_->jumped(); } // how far teleports have carried the head, m
 
   private:
+    void drape();
+
     const Device& device_;
-    Hairstyle style_;
+    Hairstyle authored_, style_; // as written, and as simulated
+    Quality quality_;
     Assets assets_;
     std::unique_ptr<Solver> solver_;
     std::optional<Motion> motion_;

@@ -12,6 +12,8 @@
 namespace coif
 {
 
+static constexpr int kLookEvery = 16; // steps, when hair may be at rest
+
 static size_t grid_voxels(const HairParams& params)
 {
     return size_t(params.grid_resolution) * size_t(params.grid_resolution) * size_t(params.grid_resolution);
@@ -70,6 +72,7 @@ void Solver::set_params(const HairParams& params)
                           p.bending_attenuation, p.forces_gravity);
     };
     const bool reshaped = shaping(wanted) != shaping(params_);
+    changed_ |= memcmp(&wanted, &params_, sizeof wanted) != 0;
     params_ = wanted;
     if (reshaped)
         set_rest_shape();
@@ -94,6 +97,8 @@ void Solver::set_groom(const Groom& groom)
             fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
         for (const char* name : {"pace", "pace_next"})
             fresh[name] = allocate(device_, blocks * sizeof(int), "the guides");
+        fresh["moved"] = allocate(device_, strands * sizeof(float), "the guides");
+        device_.queue.enqueueFillBuffer(fresh["moved"], 0.0f, 0, strands * sizeof(float));
         fresh["faults"] = allocate(device_, strands * sizeof(int), "the guides");
         device_.queue.enqueueFillBuffer(fresh["faults"], 0, 0, strands * sizeof(int));
         fresh["root_position"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
@@ -112,6 +117,7 @@ void Solver::set_groom(const Groom& groom)
     }
     buffers_ = fresh;
     groom_ = groom;
+    changed_ = true;
     write(device_, buffer("root_position"), groom.root_position);
     write(device_, buffer("root_direction"), groom.root_direction);
     write(device_, buffer("segment_length"), groom.segment_length);
@@ -123,6 +129,7 @@ void Solver::set_groom(const Groom& groom)
 
 void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
+    changed_ |= colliders != colliders_;
     if (colliders.size() > colliders_.size())
         buffers_["colliders"] = allocate(device_, colliders.size() * sizeof(float4), "the colliders");
     if (colliders.size() > colliders_.size())
@@ -153,6 +160,7 @@ void Solver::reset(const Pose& head)
 {
     head_ = head;
     head_velocity_ = glm::dvec3(0.0);
+    changed_ = true;
     std::vector<float> position = rest_.position;
     const std::vector<float> velocity(position.size(), 0.0f);
     for (int s = 0; s < groom_.blocks * LANES; ++s)
@@ -264,6 +272,9 @@ void Solver::simulate_direct(const StepInfo& info)
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
+    // And stiffer than this, it does not bend.
+    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f)
+        return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
     launch_strands("simulate_direct",
                    fmt::format("{}{}{}{}{}{}", bending ? "-D BENDING " : "",
                                bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
@@ -274,6 +285,22 @@ void Solver::simulate_direct(const StepInfo& info)
     std::swap(buffers_["pace"], buffers_["pace_next"]);
 }
 
+double Solver::fastest()
+{
+    const size_t strands = size_t(groom_.blocks) * LANES;
+    const std::vector<float> moved = read<float>(device_, buffer("moved"), strands);
+    device_.queue.enqueueFillBuffer(buffer("moved"), 0.0f, 0, strands * sizeof(float));
+    return double(*std::max_element(moved.begin(), moved.begin() + groom_.guides)) / std::max(watched_, 1e-9);
+}
+
+// Rest is two looks in a row, over half a second, in which no node moved by more than a two-hundredth of the longest
+// strand a second.
+void Solver::look_for_rest()
+{
+    calm_ = fastest() < 0.005 * double(groom_.longest) ? calm_ + 1 : 0;
+    asleep_ = calm_ >= 3; // the first saw what was before, too
+}
+
 void Solver::step(const std::vector<Substep>& wanted)
 {
     std::vector<Substep> substeps;
@@ -281,6 +308,15 @@ void Solver::step(const std::vector<Substep>& wanted)
         if (substep.seconds > 0.0f) // zero, negative or not a number: no step
             substeps.push_back(substep);
     if (substeps.empty())
+        return;
+    const Pose& to = substeps.back().head;
+    const bool outside = changed_ || to.origin != head_.origin || to.turn != head_.turn || to.wind != head_.wind ||
+                         info_.wind.w > 0.0f || params_.solver_kind != 0;
+    changed_ = false;
+    quiet_ = outside ? 0 : quiet_ + 1;
+    asleep_ &= !outside;
+    drawn_asleep_ &= asleep_;
+    if (asleep_)
         return;
     for (size_t i = 0; i < substeps.size(); ++i)
     {
@@ -301,9 +337,12 @@ void Solver::step(const std::vector<Substep>& wanted)
             upload_direct(path, before, info.teleport);
         }
         seconds_before_ = now.seconds;
+        watched_ = double(now.seconds);
         upload(info);
         simulate(info);
     }
+    if (quiet_ % kLookEvery == 0 && quiet_ > 0)
+        look_for_rest();
     const bool repels = params_.forces_repulsion > 0.0f;
     if (!repels && !has_shadow())
         return;
@@ -320,6 +359,9 @@ void Solver::step(const std::vector<Substep>& wanted)
 
 void Solver::draw()
 {
+    if (drawn_asleep_ && !changed_)
+        return;
+    drawn_asleep_ = asleep_ && !changed_;
     // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
     StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
                                    int(colliders_.size()), true);
@@ -361,6 +403,10 @@ Mapped Solver::optical_depth() const
     return Mapped(device_, buffer("depth"), has_shadow() ? grid_voxels(params_) * sizeof(float) : 0);
 }
 
+std::vector<float> Solver::multipliers() const
+{
+    return read<float>(device_, buffer("multiplier"), size_t(groom_.blocks) * LANES * size_t(groom_.nodes));
+}
 std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
 

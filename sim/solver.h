@@ -48,13 +48,19 @@ class Solver
     void step(const std::vector<Substep>& substeps);
     void draw(); // drawn strands and light for the last finished step
 
+    // Hair that has come to rest on a head at rest in still air sleeps: steps and draws cost nothing until something
+    // changes.
+    bool asleep() const { return asleep_; }
+    double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
+
     // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.
-    Mapped guide_positions() const;  // float, [block][node][axis][lane], relative to the head's origin, m
-    Mapped drawn_positions() const;  // float4 (position relative to the head's origin, share of light), [strand][node]
-    Mapped drawn_frames() const;     // float4 (normal, length from the root), [strand][node]
-    Mapped optical_depth() const;    // float, [slice][ray][ray] of light_grid.h
-    std::vector<int> resets() const; // of each guide since the start
-    std::vector<int> faults() const; // of each guide: why it was last reset, FAULT_* of kernels/shared.h
+    Mapped guide_positions() const; // float, [block][node][axis][lane], relative to the head's origin, m
+    Mapped drawn_positions() const; // float4 (position relative to the head's origin, share of light), [strand][node]
+    Mapped drawn_frames() const;    // float4 (normal, length from the root), [strand][node]
+    Mapped optical_depth() const;   // float, [slice][ray][ray] of light_grid.h
+    std::vector<float> multipliers() const; // [block][node][lane], 1/s^2: tension over mass and length
+    std::vector<int> resets() const;        // of each guide since the start
+    std::vector<int> faults() const;        // of each guide: why it was last reset, FAULT_* of kernels/shared.h
     bool has_shadow() const;
 
     const Groom& groom() const { return groom_; }
@@ -73,6 +79,7 @@ class Solver
     void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
     void set_rest_shape();
+    void look_for_rest();
     void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
     void simulate_direct(const StepInfo& info);
@@ -84,6 +91,11 @@ class Solver
     Groom groom_;
     Pose head_;
     RestShape rest_;
+    bool changed_ = true; // anything but time since the last step
+    bool asleep_ = false, drawn_asleep_ = false;
+    int quiet_ = 0;        // steps that nothing outside has moved the hair in
+    double watched_ = 0.0; // s that `moved` is the greatest of
+    int calm_ = 0;         // looks in a row that found no motion
     double time_ = 0.0;
     double seconds_before_ = 1.0 / 60.0; // of the last substep
     glm::dvec3 head_velocity_{0.0}, jumped_{0.0};

@@ -51,6 +51,20 @@ static void set_sweep(StepInfo& info, const HairParams& params, const Groom& gro
     info.body_density = extinction > 0.0 ? int(std::min(3.0 / (extinction * voxel), 1e8)) : 0;
 }
 
+// Which nodes feed the density, and with what weight: all of them alike, or of many an even part that weighs as much.
+static void set_density(StepInfo& info, const Groom& groom)
+{
+    const long nodes = groom.nodes - 1, all = groom.guides * nodes;
+    info.density_stride = int(std::max(1L, (all + DENSITY_NODES - 1) / DENSITY_NODES));
+    info.density_unit = DENSITY_ONE;
+    if (info.density_stride == 1)
+        return;
+    long part = 0;
+    for (int s = 0; s < groom.guides; ++s)
+        part += (nodes + info.density_stride - density_first(s, info.density_stride)) / info.density_stride;
+    info.density_unit = int(std::lround(double(DENSITY_ONE) * double(all) / double(part)));
+}
+
 StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
                         const Substep& now, int colliders, bool last)
 {
@@ -83,6 +97,7 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     const double voxel = 1.001 * 2.0 * reach / (params.grid_resolution - 1);
     info.grid_corner = vector4(turn * glm::dvec3(groom.middle) - 0.5 * voxel * params.grid_resolution, voxel);
     set_sweep(info, params, groom, voxel);
+    set_density(info, groom);
 
     const double b = params.forces_drag;
     info.substep = float(h);

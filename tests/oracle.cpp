@@ -107,11 +107,14 @@ Density add_density(const Strands& strands, int resolution, const StepInfo& info
     const size_t voxels = size_t(resolution) * size_t(resolution) * size_t(resolution);
     Density density{std::vector<double>(voxels), std::vector<int>(voxels)};
     for (int s = 0; s < strands.count(); ++s)
-        for (int k = 1; k < strands.nodes; ++k)
+        // Node 1 and every stride-th after it, moved outwards by the golden section of the stride from strand to
+        // strand.
+        for (int k = 1 + int(std::fmod(s * 0.6180339887498949, 1.0) * info.density_stride); k < strands.nodes;
+             k += info.density_stride)
             trilinear(strands.position[size_t(s * strands.nodes + k)], resolution, info,
                       [&](size_t voxel, double weight)
                       {
-                          density.sum[voxel] += 4096.0 * weight;
+                          density.sum[voxel] += info.density_unit * weight;
                           ++density.shares[voxel];
                       });
     return density;

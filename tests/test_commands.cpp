@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <unistd.h>
 
 using namespace coif;
@@ -169,4 +170,37 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
     EXPECT_EQ(coif("shot small.toml -o x.png --motion dance").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --device abacus").status, 1);
     EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
+TEST_F(Commands, measure_writes_rows_that_make_sense_and_passes)
+{
+    const Result result = coif("measure --quick --only A12,A13 -o figures");
+    EXPECT_EQ(result.status, 0) << result.out << result.err;
+    for (const char* scene : {"A12 free", "A12 contact", "A13 bob", "A13 8192 guides"})
+        EXPECT_NE(result.out.find(scene), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("MISSED"), std::string::npos) << result.out;
+    const std::string csv = contents("figures/measure.csv"), json = contents("figures/measure.json");
+    EXPECT_EQ(csv.rfind("scene,setting,metric,solver,knob,value,", 0), 0u);
+    EXPECT_EQ(json.rfind("{\"version\": 1,", 0), 0u);
+    EXPECT_EQ(json.find("nan"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "figures/plots/order.gp"));
+    // Closer guides follow better, on the whole; no verdict here is about time.
+    double first = -1.0, last = -1.0;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind("A12,free,median,", 0) == 0)
+        {
+            const size_t at = line.find(",,"); // nothing measured but the error
+            last = std::atof(line.c_str() + at + 2);
+            EXPECT_GT(last, 0.0) << line;
+            EXPECT_LT(last, 0.05) << line;
+            if (first < 0.0)
+                first = last;
+        }
+    EXPECT_GT(first, 4.0 * last);
+
+    const Result unknown = coif("measure --quick --only A99 -o none");
+    EXPECT_EQ(unknown.status, 1);
+    EXPECT_NE(unknown.err.find("--only A99: there is no such scene; there are A12"), std::string::npos) << unknown.err;
+    EXPECT_FALSE(fs::exists(folder / "none"));
 }

@@ -177,6 +177,7 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"pace_next", filled(device, std::vector<int>(size_t(groom.blocks), -1))},
                 {"gradient", filled(device, slopes)},
                 {"density", filled(device, std::vector<int>(20 * 20 * 20, 0))},
+                {"moved", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 0.0f))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"bodies", filled(device, bodies)},
@@ -435,7 +436,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
                     Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},
                     Case{"strands_of_3", 16, 3, 101, true, false, true, false, false, false, nullptr},
-                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm},
+                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm, 1.0 / 60.0,
+                         200.0},
                     Case{"strands_of_33", 16, 33, 97, true, true, false, false, false, false, floor_of_4},
                     Case{"strands_of_33_8_wide", 8, 33, 97, false, false, false, false, true, false, nullptr}),
     [](const auto& test) { return std::string(test.param.name); });

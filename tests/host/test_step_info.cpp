@@ -410,5 +410,34 @@ TEST(StepPath, the_head_goes_its_way_in_sixteenths_and_nowhere_in_a_leap)
     }
 }
 
+TEST(StepInfo, many_nodes_feed_the_density_by_an_even_part_that_weighs_as_much)
+{
+    EXPECT_EQ(info_of(HairParams()).density_stride, 1);
+    EXPECT_EQ(info_of(HairParams()).density_unit, DENSITY_ONE);
+    for (const int guides : {4369, 4370, 20000, 200000})
+    {
+        Groom groom = small_groom();
+        groom.guides = guides;
+        const StepInfo info = info_of(HairParams(), {}, {}, groom);
+        const double all = double(guides) * (groom.nodes - 1);
+        EXPECT_EQ(info.density_stride == 1, all <= DENSITY_NODES);
+        double sum = 0.0;
+        std::vector<int> at_node(size_t(groom.nodes));
+        for (int s = 0; s < guides; ++s)
+            for (int k = density_first(s, info.density_stride); k < groom.nodes; k += info.density_stride)
+            {
+                sum += info.density_unit;
+                ++at_node[size_t(k)];
+            }
+        EXPECT_NEAR(sum / (all * DENSITY_ONE), 1.0, 1e-4) << guides;
+        EXPECT_EQ(at_node[0], 0) << "the segment under the scalp is no hair";
+        const double mean = sum / info.density_unit / (groom.nodes - 1);
+        EXPECT_LE(mean * (groom.nodes - 1), 1.01 * DENSITY_NODES);
+        // Each node along the strand gets its share, and so does each stretch of neighbouring strands.
+        for (int k = 1; k < groom.nodes; ++k)
+            EXPECT_NEAR(at_node[size_t(k)], mean, 0.01 * mean) << guides << " guides, node " << k;
+    }
+}
+
 } // namespace
 } // namespace coif

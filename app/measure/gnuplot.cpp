@@ -1,0 +1,79 @@
+// The outside program: scripts, and the pictures that it makes of them.
+#include "app/measure/plots.h"
+#include "sim/error.h"
+#include "sim/hairstyle.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace coif
+{
+
+namespace fs = std::filesystem;
+
+static std::string script_of(const Plot& plot)
+{
+    // Drawn twice, with nothing kept in between but the data.
+    return fmt::format(
+        "# Made by coif measure. Run `gnuplot {0}.gp` for {0}.svg and {0}.png.\n{1}\n"
+        "set terminal svg size {2},{3} dynamic font 'Helvetica,12' background 'white'\n"
+        "set output '{0}.svg'\n{4}\nunset output\nreset\n"
+        "set terminal pngcairo size {5},{6} font 'Sans,12' fontscale 2 linewidth 2 pointscale 2 background "
+        "'white'\nset output '{0}.png'\n{4}\nunset output\n",
+        plot.name, plot.data, plot.width, plot.height, plot.body, 2 * plot.width, 2 * plot.height);
+}
+
+// Runs gnuplot on a script in a folder, its words into a file there. Returns its exit status, or -1 if there is none.
+static int run_gnuplot(const fs::path& folder, const std::string& script)
+{
+    const pid_t child = fork();
+    if (child < 0)
+        throw fail("gnuplot could not be started: the system takes no more processes");
+    if (child == 0)
+    {
+        const int log = chdir(folder.c_str()) == 0 ? open("log", O_WRONLY | O_CREAT | O_APPEND, 0644) : -1;
+        if (log >= 0 && dup2(log, STDOUT_FILENO) >= 0 && dup2(log, STDERR_FILENO) >= 0)
+            execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+        _exit(errno == ENOENT ? 127 : 126);
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 126;
+    return code == 127 ? -1 : code;
+}
+
+std::string write_plots(const fs::path& folder, const std::vector<Plot>& plots)
+{
+    const fs::path shown = folder / "plots", making = shown / fmt::format(".making_{}", getpid());
+    std::error_code error;
+    fs::create_directories(making, error);
+    if (error)
+        throw fail("{}: the folder cannot be made: {}", making.string(), error.message());
+    std::string trouble;
+    for (const Plot& plot : plots)
+    {
+        write_file(shown / (plot.name + ".gp"), script_of(plot));
+        if (!trouble.empty())
+            continue;
+        const int status = run_gnuplot(making, "../" + plot.name + ".gp");
+        if (status < 0)
+            trouble =
+                fmt::format("gnuplot is not installed, so there are no plots, only their scripts in {}; on Debian "
+                            "and Ubuntu: apt install gnuplot",
+                            shown.string());
+        else if (status > 0)
+            trouble = fmt::format("gnuplot could not draw {}: {}", plot.name, read_file(making / "log"));
+        else
+            for (const char* ending : {".svg", ".png"})
+                fs::rename(making / (plot.name + ending), shown / (plot.name + ending), error);
+        if (error)
+            trouble = fmt::format("{} was not drawn: {}", plot.name, error.message());
+    }
+    fs::remove_all(making, error);
+    return trouble;
+}
+
+} // namespace coif

@@ -1,0 +1,48 @@
+#pragma once
+#include "app/measure/rows.h"
+#include "app/options.h"
+
+#include <functional>
+
+namespace coif
+{
+
+// What `coif measure` is asked for.
+struct MeasureOptions
+{
+    bool quick = false;            // fewer points and shorter runs: under a minute
+    std::vector<std::string> only; // ids of scenes; empty: all
+};
+
+// What a scene is given to work with.
+struct Measuring
+{
+    const Device& device;
+    bool quick = false;
+    std::function<void(const std::string&)> progress = [](const std::string&) {}; // what is being done now
+};
+
+// One scene of the suite: what it measures and how. To add one, write its function and its line in scenes.cpp.
+struct Scene
+{
+    const char* id;    // "A12", as --only takes it
+    const char* title; // for the plots and the table
+    std::vector<Row> (*run)(const Measuring&);
+};
+const std::vector<Scene>& scenes();
+
+// What moves the guides under these parameters, as it stands in rows.
+std::string solver_name(const HairParams& params);
+
+// Runs the scenes and writes measure.csv, measure.json and plots/ into options.output; the table goes to standard
+// output. Returns the exit status: 1 if a row misses its bound.
+int measure(const Options& options, const MeasureOptions& wanted);
+
+// The scenes, in files of their own.
+std::vector<Row> measure_interpolation(const Measuring&); // A12: interpolation.cpp
+std::vector<Row> measure_ratio(const Measuring&);         // copies against mixes: interpolation.cpp
+std::vector<Row> measure_voxels(const Measuring&);        // A13: voxels.cpp
+std::vector<Row> measure_grid(const Measuring&);          // grid resolution: voxels.cpp
+std::vector<Row> measure_picture(const Measuring&);       // picture error: picture.cpp
+
+} // namespace coif

@@ -1,0 +1,126 @@
+#include "app/measure/rows.h"
+
+#include "app/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace coif
+{
+
+// The columns of both files, once. `text` or `number` says what a column is.
+static const struct Column
+{
+    const char* name;
+    std::string Row::*text;
+    double Row::*number;
+} kColumns[] = {{"scene", &Row::scene, nullptr},
+                {"setting", &Row::setting, nullptr},
+                {"metric", &Row::metric, nullptr},
+                {"solver", &Row::solver, nullptr},
+                {"knob", &Row::knob, nullptr},
+                {"value", nullptr, &Row::value},
+                {"measured", nullptr, &Row::measured},
+                {"error", nullptr, &Row::error},
+                {"unit", &Row::unit, nullptr},
+                {"reference", &Row::reference, nullptr},
+                {"stretch_max", nullptr, &Row::stretch},
+                {"penetration_mm", nullptr, &Row::penetration_mm},
+                {"ns_strand_frame", nullptr, &Row::ns_strand_frame},
+                {"ms", nullptr, &Row::ms},
+                {"pass", nullptr, &Row::pass},
+                {"state_of_the_art", nullptr, &Row::state_of_the_art}};
+
+static std::string csv_text(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == text.npos)
+        return text;
+    std::string out = "\"";
+    for (const char c : text)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+static std::string verdict(const Row& row)
+{
+    if (!row.judged())
+        return "";
+    return !row.passed() ? "MISSED" : row.excels() ? "excellent" : "pass";
+}
+
+std::string csv_of(const std::vector<Row>& rows)
+{
+    std::string out;
+    for (const Column& column : kColumns)
+        out += fmt::format("{},", column.name);
+    out += "verdict\n";
+    for (const Row& row : rows)
+    {
+        for (const Column& column : kColumns)
+            if (column.text)
+                out += csv_text(row.*column.text) + ",";
+            else
+                out += std::isfinite(row.*column.number) ? fmt::format("{:.6g},", row.*column.number) : ",";
+        out += verdict(row) + "\n";
+    }
+    return out;
+}
+
+std::string json_of(const std::vector<Row>& rows, const std::string& device, bool quick)
+{
+    std::string out =
+        fmt::format("{{\"version\": 1, \"device\": {}, \"quick\": {}, \"rows\": [", json_text(device), quick);
+    for (size_t i = 0; i < rows.size(); ++i)
+    {
+        out += i ? ",\n  {" : "\n  {";
+        for (const Column& column : kColumns)
+            out += fmt::format("\"{}\": {}, ", column.name,
+                               column.text ? json_text(rows[i].*column.text) : json_number(rows[i].*column.number));
+        out += fmt::format("\"verdict\": {}}}", rows[i].judged() ? json_text(verdict(rows[i])) : "null");
+    }
+    return out + "\n]}\n";
+}
+
+// Four significant digits, or nothing.
+static std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
+
+// A fraction of a length reads best in percent.
+static std::string shown_error(const Row& row)
+{
+    if (!std::isfinite(row.error))
+        return "-";
+    if (row.unit == "L" || row.unit == "fraction")
+        return fmt::format("{:.3g} %{}", 100.0 * row.error, row.unit == "L" ? " L" : "");
+    return fmt::format("{:.4g}{}{}", row.error, row.unit.empty() ? "" : " ", row.unit);
+}
+
+std::string table_of(const std::vector<Row>& rows)
+{
+    std::vector<std::vector<std::string>> lines = {
+        {"scene", "metric", "solver", "knob", "value", "error", "stretch", "inside", "ns/strand", "ms", ""}};
+    for (const Row& row : rows)
+        lines.push_back({row.scene + (row.setting.empty() ? "" : " " + row.setting), row.metric, row.solver, row.knob,
+                         shown(row.value), shown_error(row),
+                         std::isfinite(row.stretch) ? fmt::format("{:.2f} %", 100.0 * row.stretch) : "",
+                         std::isfinite(row.penetration_mm) ? fmt::format("{:.2f} mm", row.penetration_mm) : "",
+                         shown(row.ns_strand_frame), shown(row.ms), verdict(row)});
+    std::vector<size_t> width(lines[0].size());
+    for (const auto& line : lines)
+        for (size_t c = 0; c < line.size(); ++c)
+            width[c] = std::max(width[c], line[c].size());
+    std::string out;
+    for (const auto& line : lines)
+    {
+        std::string text;
+        for (size_t c = 0; c < line.size(); ++c)
+            // Words to the left, numbers to the right.
+            text += c < 4 || c + 1 == line.size() ? fmt::format("{:<{}}  ", line[c], width[c])
+                                                  : fmt::format("{:>{}}  ", line[c], width[c]);
+        text.erase(text.find_last_not_of(' ') + 1);
+        out += text + "\n";
+    }
+    return out;
+}
+
+} // namespace coif

@@ -1,0 +1,229 @@
+#include "sim/quality.h"
+
+#include "sim/error.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace coif
+{
+
+// ---- sixteen guides, moved at several finenesses -----------------------------------------------------------------
+
+static Groom sample(const Groom& all)
+{
+    Groom few = all;
+    few.guides = LANES;
+    few.blocks = 1;
+    few.drawn.clear();
+    few.drawn_multi = 0;
+    few.hold = 0.0f;
+    const auto pick = [&](const std::vector<float>& from, int nodes, int axes)
+    {
+        std::vector<float> to;
+        if (from.empty())
+            return to;
+        to.resize(size_t(nodes * axes) * LANES);
+        for (int s = 0; s < LANES; ++s)
+        {
+            const int g = int(long(s) * all.guides / LANES);
+            for (int i = 0; i < nodes * axes; ++i)
+                to[size_t(i * LANES + s)] = from[size_t((g / LANES * nodes * axes + i) * LANES + g % LANES)];
+        }
+        return to;
+    };
+    few.root_position = pick(all.root_position, 1, 3);
+    few.root_direction = pick(all.root_direction, 1, 3);
+    few.segment_length = pick(all.segment_length, 1, 1);
+    few.natural_position = pick(all.natural_position, all.nodes, 3);
+    few.rest_position.clear();
+    few.rest_multiplier.clear();
+    return few;
+}
+
+static HairParams alone(HairParams params)
+{
+    params.forces_repulsion = params.look_self_shadow = 0.0f;
+    return params;
+}
+
+// Lets the sample hang still, so that what follows is the motion's doing.
+static void hang(const Device& device, const HairParams& params, Groom& groom)
+{
+    HairParams thick = params;
+    thick.forces_drag = std::max(thick.forces_drag, 15.0f);
+    Solver solver(device, thick, groom, {});
+    for (int i = 0; i < 180; ++i)
+        solver.step({{Pose{}, 0.0, 1.0f / 60.0f}});
+    const Mapped position = solver.guide_positions();
+    groom.rest_position = in_head_frame(position.as<float>(), groom, {1.0, 0.0, 0.0, 0.0});
+    groom.rest_multiplier = solver.multipliers();
+}
+
+struct Sampled
+{
+    std::vector<float> positions; // frame after frame, as the solver lays them
+    double nanoseconds = 0.0;     // a strand and step
+    int most_substeps = 1;        // of a step, at its end
+};
+
+// Each step cut into `finer` ones, at as many times smaller a Courant number: as many substeps each, `finer` times as
+// many in all.
+static Sampled move(const Device& device, HairParams params, const Groom& groom, const Motion& motion, double seconds,
+                    int finer)
+{
+    params.solver_courant /= float(finer);
+    Solver solver(device, params, groom, pose_at(motion, 0.0));
+    Sampled sampled;
+    const double step = 1.0 / std::max(60.0, double(params.solver_rate)), h = step / finer;
+    const long steps = std::lround(seconds / step), values = long(groom.nodes) * 3 * LANES;
+    for (long i = 0; i < steps; ++i)
+    {
+        for (int j = 0; j < finer; ++j)
+        {
+            const double begin = double(i) * step + j * h;
+            const auto way = [&](double share) { return pose_at(motion, begin + share * h); };
+            solver.step({{way(1.0), begin + h, float(h), way}});
+        }
+        for (const auto& [pass, ms] : solver.take_times())
+            sampled.nanoseconds += 1e6 * ms / double(steps * LANES);
+        const Mapped view = solver.guide_positions();
+        sampled.positions.insert(sampled.positions.end(), view.as<float>(), view.as<float>() + values);
+    }
+    sampled.most_substeps = 1 << std::max(0, read<int>(device, solver.buffers().at("pace"), 1)[0] - 1);
+    return sampled;
+}
+
+// Root mean square distance of the nodes, in lengths of the longest strand.
+static double apart(const Sampled& a, const Sampled& b, const Groom& groom)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < a.positions.size(); ++i)
+        sum += std::pow(double(a.positions[i]) - double(b.positions[i]), 2);
+    // Three values a node, of which the first two are prescribed.
+    const double nodes = double(a.positions.size()) / 3.0 * (groom.nodes - 2) / groom.nodes;
+    return std::sqrt(sum / nodes) / double(groom.longest);
+}
+
+double measure_time_error(const Device& device, const HairParams& params, const Groom& groom, const Motion& motion,
+                          double seconds)
+{
+    Groom few = sample(groom);
+    const HairParams p = alone(params);
+    hang(device, p, few);
+    return apart(move(device, p, few, motion, seconds, 1), move(device, p, few, motion, seconds, 8), few);
+}
+
+// ---- choosing ----------------------------------------------------------------------------------------------------
+
+double Quality::predicted() const { return std::hypot(time_error, node_error); }
+
+// Half a mass at the tip: 2.8, 0.9, 0.3, 0.1 % for 7, 15, 31, 63 links, the geometric means of what was measured there.
+static double error_of_links(int links) { return 0.028 * std::pow(7.0 / links, 1.5); }
+
+// Free of contact, 0.2 % at a spacing of 17 mm, by its square.
+static double error_of_spacing(double spacing) { return 0.002 * std::pow(spacing / 0.017, 2); }
+
+static bool pinned(const HairParams& params, const char* path)
+{
+    static const HairParams defaults;
+    float a[3] = {}, b[3] = {};
+    get_numbers(params, *find_param(path), a);
+    get_numbers(defaults, *find_param(path), b);
+    return a[0] != b[0];
+}
+
+// Rungs from a Courant number downwards, each with twice the substeps; their errors against the finest, and by
+// Richardson's extrapolation beyond it.
+static std::vector<Rung> climb(const Device& device, const HairParams& params, const Groom& groom)
+{
+    constexpr int kRuns = 5;
+    constexpr double kSeconds = 2.0;
+    const Motion motion = find_motion("shake");
+    Groom few = sample(groom);
+    hang(device, params, few);
+    std::array<Sampled, kRuns> runs;
+    for (int k = 0; k < kRuns; ++k)
+        runs[size_t(k)] = move(device, params, few, motion, kSeconds, 1 << k);
+    const Sampled& finest = runs[kRuns - 1];
+    // The order that the scheme has here, from the two finest pairs; first with bending, second without.
+    const double pair = apart(runs[kRuns - 3], runs[kRuns - 2], few), last = apart(runs[kRuns - 2], finest, few);
+    const double ratio = std::clamp(last > 0.0 ? pair / last : 4.0, 2.0, 4.0);
+    std::vector<Rung> rungs;
+    for (int k = 0; k + 1 < kRuns; ++k)
+    {
+        if (k > 0 && runs[0].most_substeps << k > MOST_SUBSTEPS)
+            break;
+        // The finest is not the truth: its own error is ratio^-(runs between) of this one's.
+        const double error = apart(runs[size_t(k)], finest, few) / (1.0 - std::pow(ratio, k + 1 - kRuns));
+        const int substeps = std::max(1, params.solver_substeps) << k;
+        rungs.push_back({params.solver_courant / float(1 << k), std::min(substeps, MOST_SUBSTEPS), error,
+                         runs[size_t(k)].nanoseconds});
+    }
+    return rungs;
+}
+
+Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality)
+{
+    quality = {};
+    Hairstyle live = style;
+    HairParams& p = live.params;
+    const double tolerance = 0.01 * double(p.quality_tolerance);
+    if (tolerance <= 0.0 || p.solver_kind != 0)
+        return live;
+    std::string chosen, held;
+    const auto note = [](std::string& list, const std::string& what) { list += (list.empty() ? "" : ", ") + what; };
+
+    // Nodes first: half the tolerance, as errors that are independent add; then substeps for what is left.
+    if (pinned(p, "strand.nodes"))
+        note(held, fmt::format("{} nodes", p.strand_nodes));
+    else
+    {
+        for (const int nodes : {8, 12, 16, 24, 32, 48, 64})
+        {
+            p.strand_nodes = nodes;
+            if (error_of_links(nodes - 2) <= tolerance * 0.7)
+                break;
+        }
+        note(chosen, fmt::format("{} nodes", p.strand_nodes));
+    }
+    quality.node_error = error_of_links(p.strand_nodes - 2);
+
+    const Groom groom = grow(p, scalp);
+    quality.guide_error = error_of_spacing(std::sqrt(2.0 * std::numbers::pi) * double(scalp.radius) *
+                                           double(p.head_scale) / std::sqrt(std::max(1.0, double(groom.guides))));
+    const bool substeps_pinned = pinned(p, "solver.courant") || pinned(p, "solver.substeps");
+    HairParams probed = alone(p);
+    if (!substeps_pinned)
+        probed.solver_courant = 1.8f;
+    quality.rungs = climb(device, probed, groom);
+    const double left = std::sqrt(
+        std::max(0.25 * tolerance * tolerance, tolerance * tolerance - quality.node_error * quality.node_error));
+    if (!substeps_pinned)
+        while (quality.chosen + 1 < quality.rungs.size() && quality.rungs[quality.chosen].error > left)
+            ++quality.chosen;
+    const Rung& rung = quality.rungs[quality.chosen];
+    p.solver_courant = rung.courant;
+    p.solver_substeps = rung.substeps;
+    quality.time_error = rung.error;
+    note(substeps_pinned ? held : chosen, fmt::format("courant {:.3g}", p.solver_courant));
+
+    // What pictures and repulsion can tell apart at that tolerance (coif measure: grid, picture).
+    if (!pinned(p, "grid.resolution"))
+        p.grid_resolution = tolerance >= 0.05 ? 32 : 64;
+    else
+        note(held, fmt::format("grid {}", p.grid_resolution));
+    if (!pinned(p, "smoothing.subdivisions"))
+        p.smoothing_subdivisions = tolerance >= 0.05 ? 3 : tolerance >= 0.02 ? 4 : 5;
+    else
+        note(held, fmt::format("{} subdivisions", p.smoothing_subdivisions));
+    quality.said = fmt::format("tolerance {:.3g} %: {}; the style pins {}", 100.0 * tolerance,
+                               chosen.empty() ? "nothing to choose" : chosen, held.empty() ? "nothing" : held);
+    return live;
+}
+
+} // namespace coif
