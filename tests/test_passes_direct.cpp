@@ -63,9 +63,10 @@ class DirectPass : public testing::TestWithParam<Case>
         step.reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
         if (c.contact)
             step.bodies = {{glm::dvec3(groom.center), 0.1f, true}};
-        for (int i = 0; c.contact && i < 6; ++i)
+        for (int i = 0; c.contact && i < 6; ++i) // some make creases with the large one
             step.bodies.push_back(
-                {rounded(0.15 * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f, i % 2 == 1});
+                {rounded((i < 3 ? 0.115 : 0.15) * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f,
+                 i % 2 == 1});
         step.info =
             make_step_info(params, groom, step.before, step.head_velocity, step.now, int(step.bodies.size()), true);
         step.teleport = step.info.teleport;
@@ -79,7 +80,7 @@ class DirectPass : public testing::TestWithParam<Case>
                                      [](const oracle::Sphere& s) { return s.on_head; })));
         const size_t voxels = 20 * 20 * 20;
         for (size_t i = 0; c.repulsion && i < voxels; ++i)
-            step.gradient.push_back(rounded(random.vector(3.0 * 4096.0)));
+            step.gradient.push_back(rounded(random.vector(40.0 * 4096.0)));
         make_state();
     }
 
@@ -257,7 +258,7 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
     // every single rounding drawn at random, and what is allowed is some times the worst of it.
     const size_t strands = size_t(c.strands);
     std::vector<double> place(strands), speed(strands), pull(strands), tension(strands);
-    for (int trial = 0; trial < 6; ++trial)
+    for (int trial = 0; trial < 8; ++trial)
     {
         oracle::DirectStrands off = state;
         oracle::simulate_direct(off, step, [&] { return random.in(-1.0, 1.0); });
@@ -277,7 +278,8 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
                               v = apart(points(on_device, "velocity"), expected.velocity),
                               p = apart(scalars(on_device, "multiplier", c.nodes), expected.multiplier),
                               t = apart(scalars(on_device, "tension_next", 1), expected.tension);
-    int loose = 0;
+    int loose = 0, beyond = 0;
+    std::string apart_most;
     double moved = 0.0;
     for (size_t s = 0; s < strands; ++s)
     {
@@ -288,11 +290,17 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
             ++loose;
             continue;
         }
-        EXPECT_LE(x[s], 4.0 * place[s] + 1e-8) << "strand " << s;
-        EXPECT_LE(v[s], 4.0 * speed[s] + 1e-7) << "strand " << s;
-        EXPECT_LE(p[s], 4.0 * pull[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
-        EXPECT_LE(t[s], 4.0 * tension[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
+        const bool as_twin = x[s] <= 4.0 * place[s] + 1e-8 && v[s] <= 4.0 * speed[s] + 1e-7 &&
+                             p[s] <= 4.0 * pull[s] + 1e-6 * expected.tension[s] + 1e-3 &&
+                             t[s] <= 4.0 * tension[s] + 1e-6 * expected.tension[s] + 1e-3;
+        if (!as_twin)
+            apart_most += fmt::format("strand {}: {} m of {}, {} m/s of {}, multiplier {} of {}, tension {} of {}\n", s,
+                                      x[s], place[s], v[s], speed[s], p[s], pull[s], t[s], tension[s]);
+        beyond += !as_twin;
     }
+    // What a rounding tips over once in a hundred times, such as which of two bodies is the nearer, may have escaped
+    // the draws in a strand or two.
+    EXPECT_LE(beyond, c.strands / 100) << apart_most;
     EXPECT_LT(loose, c.strands / 3) << "of strands for which rounding has the say";
     EXPECT_GT(moved, 1e-4);
     EXPECT_EQ(read<int>(test_device(), on_device.at("pace_next"), size_t(groom.blocks)), expected.pace);
