@@ -141,7 +141,10 @@ static inline void add_bending(const Points* x, Points* move, Points along, real
     Points before = times(rest, along);
     Points node = plus(x[1], move[1]);
 #ifdef CURLED
-    Points tangent = along;
+    Points tangent = along, tangents[NODES], torque[NODES];
+    real per_length[NODES];
+    tangents[1] = along;
+    torque[NODES - 1] = points((real)(0.0f), (real)(0.0f), (real)(0.0f));
 #endif
     for (int e = 1; e + 1 < NODES; ++e)
     {
@@ -150,7 +153,9 @@ static inline void add_bending(const Points* x, Points* move, Points along, real
 #ifdef CURLED
         const Points bend = load_lanes(rest_bend + e * 3 * LANES);
         const Points binormal = cross_lanes(tangent, normal);
-        off = minus(off, plus(plus(times(bend.x, tangent), times(bend.y, normal)), times(bend.z, binormal)));
+        const Points towards = plus(plus(times(bend.x, tangent), times(bend.y, normal)), times(bend.z, binormal));
+        off = minus(off, towards);
+        torque[e] = times(scale * weight[e], cross_lanes(towards, off));
         const real squared = dot_lanes(after, after);
         const Points next = select_points(tangent, times(INVERSE_SQRT(fmax(squared, 1e-12f * rest * rest)), after),
                                           squared > 1e-12f * rest * rest);
@@ -160,7 +165,8 @@ static inline void add_bending(const Points* x, Points* move, Points along, real
         normal = minus(normal, times(dot_lanes(normal, next), next)); // rounding; and where the strand folds back
         const real size = dot_lanes(normal, normal);
         normal = select_points(any_normal(next), times(INVERSE_SQRT(fmax(size, (real)(1e-12f))), normal), size > 1e-6f);
-        tangent = next;
+        tangent = tangents[e + 1] = next;
+        per_length[e + 1] = INVERSE_SQRT(fmax(squared, 0.1f * rest * rest)); // no segment is as short as that for long
 #endif
         off = times(scale * weight[e], off);
         if (e > 2)
@@ -171,6 +177,24 @@ static inline void add_bending(const Points* x, Points* move, Points along, real
         before = after;
         node = x[e + 1];
     }
+#ifdef CURLED
+    // What turns an element's target turns the frame that it lies in: its segment, and by the twist that goes with the
+    // turning of all segments before it. Without this the forces have no energy, and tight ringlets flap.
+    real twist = (real)(0.0f);
+    Points beyond = torque[NODES - 1];
+    for (int e = NODES - 2; e > 1; --e)
+    {
+        const Points t = tangents[e], previous = tangents[e - 1];
+        twist += dot_lanes(torque[e], t);
+        const Points here = times(twist / fmax(1.0f + dot_lanes(previous, t), (real)(0.05f)), cross_lanes(previous, t));
+        Points push = minus(cross_lanes(torque[e], t), plus(here, beyond));
+        push = times(per_length[e], minus(push, times(dot_lanes(push, t), t)));
+        move[e] = plus(move[e], push);
+        if (e > 2)
+            move[e - 1] = minus(move[e - 1], push);
+        beyond = here;
+    }
+#endif
 }
 
 static inline void solve_bending(const Factor* f, Points* move)

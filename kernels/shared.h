@@ -66,6 +66,8 @@ typedef struct StepInfo
     float repulsion;  // m/s^2 for a density gradient of one guide strand's node a voxel, per fixed-point unit
     float bend_droop; // bending stiffness over mass times the segment's length, m/s^2, from the droop number
     float bend_modulus; // the same times its fourth power, m^4/s^2, from the modulus; one of the two is zero
+    float bend_most;    // 1/s^2: curls stiffer than that, over mass, are taken to be of that
+    float turning_rate; // 1/s: curls ask for substeps of at most its inverse
     float tip_mass;     // of the last node against the others; infinite: it is held where it is
     float acceleration; // that strands may hang in: gravity, wind and the roots' own, at most, m/s^2
     float push_out;     // m/s at which hair that starts inside a body is let out

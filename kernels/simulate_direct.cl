@@ -35,7 +35,8 @@ static inline int halvings(global const float* tension, global const float* segm
     // Hanging from its root in what accelerates it, it will be at least as tense as this.
     const float length_least = fmax(shortest * params->strand_spacing, 1e-9f);
     most = fmax(most, (float)(NODES - 2) * info->acceleration / length_least);
-    const float need = info->substep * 2.0f * sqrt(fmin(most, 1e30f)) / params->solver_courant;
+    const float waves = info->substep * 2.0f * sqrt(fmin(most, 1e30f)) / params->solver_courant;
+    const float need = fmax(waves, info->substep * info->turning_rate);
     int up = 0, down = 0;
     while (up < 4 && (float)(1 << up) < fmax(need, (float)params->solver_substeps))
         ++up;
@@ -112,7 +113,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     // Stiffness over mass, 1/s^2: from the droop number, E I / (rho S) = g L^3 / Gamma, or from the modulus.
     const real per_length = 1.0f / rest;
     const real stiffness =
-        per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length);
+        fmin(per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length),
+             (real)(info->bend_most));
     float weight[NODES];
     element_weights(params->bending_attenuation, weight);
     Factor factor;

@@ -183,6 +183,8 @@ RootRows load_root(const std::filesystem::path& file)
             const auto [next, fault] = std::from_chars(at, stop, values[count]);
             good = fault == std::errc() && std::isfinite(values[count]);
             at = next;
+            while (at < stop && *at == ' ')
+                ++at;
             ++count;
             if (good && count < 4)
             {

@@ -14,6 +14,7 @@ using Vec = glm::dvec3;
 static constexpr double kGravity = 9.81;      // m/s^2
 static constexpr double kFibreDensity = 1300; // kg/m^3
 static constexpr double kMostBend = 0.5;      // of a segment, that gravity is compensated by at one node
+static constexpr double kFinest = 1.0 / 60.0 / MOST_SUBSTEPS; // s
 
 static Vec any_normal(Vec t) { return glm::normalize(std::abs(t.x) > 0.6 ? Vec(-t.z, 0.0, t.x) : Vec(0.0, t.z, -t.y)); }
 
@@ -75,20 +76,34 @@ static std::vector<Vec> bends(const std::vector<Vec>& x, const std::vector<Vec>&
 
 // How far each element's second difference must be off its natural one for the strand to carry its own weight: force
 // balance of each node, from the tip, across the segment that leads to it; what is along it is tension.
-//   gravity + stiffness (-off[i-1] + 2 off[i] - off[i+1]) - pull[i] a[i] + pull[i+1] a[i+1] = 0
+//   gravity + stiffness (-off[i-1] + 2 off[i] - off[i+1]) + push[i] - push[i+1] - pull[i] a[i] + pull[i+1] a[i+1] = 0
+// where push[i] is what elements from i on, as they turn their frames, do to segment i: kernels/direct.h.
 static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffness, double tip_mass, Vec gravity,
                     std::vector<Vec>& off, std::vector<double>& pull)
 {
     const int last = int(x.size()) - 1;
     off.assign(x.size() + 1, Vec(0.0));
     pull.assign(x.size() + 1, 0.0);
-    std::vector<Vec> force(x.size() + 2, Vec(0.0)); // stiffness times off
+    std::vector<Vec> force(x.size() + 2, Vec(0.0)), push(x.size() + 2, Vec(0.0)); // stiffness times off
+    double twist = 0.0;
+    Vec beyond(0.0);
+    const auto segment = [&](int i) { return x[size_t(i)] - x[size_t(i - 1)]; };
     for (int i = last; i > 1; --i)
     {
-        const Vec a = x[size_t(i)] - x[size_t(i - 1)];
-        Vec load = (i == last ? tip_mass : 1.0) * gravity + 2.0 * force[size_t(i)] - force[size_t(i + 1)];
+        const Vec a = segment(i), t = glm::normalize(a), before = glm::normalize(segment(i - 1));
         if (i < last)
-            load += pull[size_t(i + 1)] * (x[size_t(i + 1)] - x[size_t(i)]);
+        {
+            const Vec torque = glm::cross(segment(i + 1) - a, force[size_t(i)]);
+            twist += glm::dot(torque, t);
+            const Vec here = twist / std::max(1.0 + glm::dot(before, t), 0.05) * glm::cross(before, t);
+            const Vec turning = glm::cross(torque, t) - here - beyond;
+            push[size_t(i)] = (turning - glm::dot(turning, t) * t) / glm::length(a);
+            beyond = here;
+        }
+        Vec load = (i == last ? tip_mass : 1.0) * gravity + 2.0 * force[size_t(i)] - force[size_t(i + 1)] +
+                   push[size_t(i)] - push[size_t(i + 1)];
+        if (i < last)
+            load += pull[size_t(i + 1)] * segment(i + 1);
         pull[size_t(i)] = glm::dot(load, a) / glm::dot(a, a);
         force[size_t(i - 1)] = load - pull[size_t(i)] * a;
         const double k = stiffness[size_t(i - 1)];
@@ -96,13 +111,38 @@ static void hold_up(const std::vector<Vec>& x, const std::vector<double>& stiffn
     }
 }
 
-// Stiffness over mass of each element, 1/s^2: kernels/direct.h.
-static std::vector<double> stiffnesses(const HairParams& params, int nodes, double rest)
+// The implicit step holds what bending resists to, but not what frames do that turn with the strand: kernels/direct.h
+// adds that explicitly. It is stable while h^2 stiffness share < 1. The bound, with some room, is of the eigenvalues of
+// helices of 5 to 20 segments a turn and 14 to 62 in all; `bend` is the largest second difference, in segments.
+static double explicit_share(double bend) { return 0.35 * bend * bend + std::pow(bend, 5); }
+
+// The largest second difference of a shape, in segments, from node 1 on.
+static double tightest_of(const std::vector<float>& shape, const Groom& groom)
+{
+    double most = 0.0;
+    for (int s = 0; s < groom.blocks * LANES && !shape.empty(); ++s)
+        for (int e = 2; e + 1 < groom.nodes; ++e)
+        {
+            const Vec middle = vector_of(shape, s, e, groom.nodes);
+            const Vec a = middle - vector_of(shape, s, e - 1, groom.nodes);
+            const Vec b = vector_of(shape, s, e + 1, groom.nodes) - middle;
+            if (glm::length(a) > 1e-12 && glm::length(b) > 1e-12)
+                most = std::max(most, glm::distance(glm::normalize(a), glm::normalize(b)));
+        }
+    return most;
+}
+
+// Stiffness over mass, 1/s^2, and of each element: kernels/direct.h.
+static double stiffness_over_mass(const HairParams& params, int links, double rest)
+{
+    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
+    return modulus > 0.0 ? modulus * radius * radius / (4.0 * kFibreDensity * std::pow(rest, 4))
+                         : kGravity * links * links * links / (double(params.bending_droop) * rest);
+}
+
+static std::vector<double> stiffnesses(const HairParams& params, int nodes, double all)
 {
     const int links = nodes - 2;
-    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
-    const double all = modulus > 0.0 ? modulus * radius * radius / (4.0 * kFibreDensity * std::pow(rest, 4))
-                                     : kGravity * links * links * links / (double(params.bending_droop) * rest);
     std::vector<double> of(size_t(nodes), 0.0);
     for (int e = 1; e + 1 < nodes; ++e)
         of[size_t(e)] = all * (e == 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * (e - 1) / links);
@@ -122,11 +162,18 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
     const bool at_rest = !groom.rest_position.empty();
     const double hold = at_rest ? groom.hold : 0.0;
     const Vec gravity(0.0, -kGravity * params.forces_gravity, 0.0);
+    const double tightest = std::max(tightest_of(groom.natural_position, groom),
+                                     hold > 0.0 ? tightest_of(groom.rest_position, groom) : 0.0);
+    const double share = explicit_share(tightest);
+    if (tightest > 1e-5)
+        shape.bend_most = 1.0 / (share * kFinest * kFinest);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
         const Vec root = vector_of(groom.root_position, s, 0, 1);
         const Vec direction = glm::normalize(vector_of(groom.root_direction, s, 0, 1));
         const double rest = std::max(1e-9, double(groom.segment_length[size_t(s)]) * params.strand_spacing);
+        const double stiffness = std::min(stiffness_over_mass(params, nodes - 2, rest), shape.bend_most);
+        shape.turning_rate = std::max(shape.turning_rate, std::sqrt(stiffness * share));
         const std::vector<Vec> natural = chain(groom.natural_position, s, nodes, root, direction, rest);
         const std::vector<Vec> x = at_rest ? chain(groom.rest_position, s, nodes, root, direction, rest) : natural;
         const Vec normal = any_normal(direction);
@@ -139,7 +186,7 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         if (at_rest)
         {
             std::vector<double> pull;
-            hold_up(x, stiffnesses(params, nodes, rest), groom.tip_mass, gravity, off, pull);
+            hold_up(x, stiffnesses(params, nodes, stiffness), groom.tip_mass, gravity, off, pull);
             for (Vec& held : off)
             {
                 const double size = glm::length(held), most = kMostBend * rest;

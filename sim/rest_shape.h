@@ -18,6 +18,9 @@ struct RestShape
                                    // tangent, normal and binormal of a frame carried along the strand from the root
     std::vector<float> multiplier; // [block][node][lane], 1/s^2: tensions that hold the shape up, per mass and length
     bool curled = false;           // some bend is not zero
+    double bend_most = 1e30;       // 1/s^2, stiffness over mass: curls are taken to be no stiffer, so that the finest
+                                   // substep of a sixtieth can follow them
+    double turning_rate = 0.0;     // 1/s: longer substeps than its inverse are too long for the curls
 };
 
 // What strands are bent towards: groom.natural_position by 1 - groom.hold, and by groom.hold the shape for which

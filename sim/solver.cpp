@@ -333,7 +333,7 @@ void Solver::step(const std::vector<Substep>& wanted)
         {
             const StepPath path = make_step_path(params_, before, now, info.teleport, seconds_before_);
             const long on_head = std::count_if(colliders_.begin(), colliders_.end(), [](auto& c) { return c.on_head; });
-            set_direct(info, path, groom_, int(on_head));
+            set_direct(info, path, groom_, rest_, int(on_head));
             upload_direct(path, before, info.teleport);
         }
         seconds_before_ = now.seconds;

@@ -120,7 +120,8 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
 StepPath make_step_path(const HairParams& params, const Pose& before, const Substep& now, bool teleport,
                         double seconds_before);
 
-// What of StepInfo only the direct solver reads and only the path tells: the acceleration that strands will hang in.
-void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, int head_colliders);
+// What of StepInfo only the direct solver reads, and only the path and the rest shape tell: the acceleration that
+// strands will hang in, how stiff curls may be.
+void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, const RestShape& rest, int head_colliders);
 
 } // namespace coif

@@ -210,9 +210,11 @@ static double root_acceleration(const StepPath& path, double seconds, double rea
     return most;
 }
 
-void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, int head_colliders)
+void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, const RestShape& rest, int head_colliders)
 {
     info.head_colliders = head_colliders;
+    info.bend_most = float(rest.bend_most);
+    info.turning_rate = float(rest.turning_rate);
     const double reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
     info.acceleration =
         float(std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w)) +

@@ -1,5 +1,7 @@
 #include "tests/oracle_direct.h"
 
+#include "tests/oracle_strand.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -7,60 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace coif::oracle
 {
-
-// ---- linear algebra ------------------------------------------------------------------------------------------------
-
-using Matrix = std::vector<std::vector<double>>;
-
-static Matrix zeros(int rows, int columns) { return Matrix(size_t(rows), std::vector<double>(size_t(columns))); }
-
-// Gaussian elimination with row exchanges. T: double or Vec.
-template <typename T> static std::vector<T> solved(Matrix a, std::vector<T> right)
-{
-    const size_t n = right.size();
-    for (size_t column = 0; column < n; ++column)
-    {
-        size_t best = column;
-        for (size_t row = column + 1; row < n; ++row)
-            if (std::abs(a[row][column]) > std::abs(a[best][column]))
-                best = row;
-        std::swap(a[column], a[best]);
-        std::swap(right[column], right[best]);
-        for (size_t row = column + 1; row < n; ++row)
-        {
-            const double factor = a[row][column] / a[column][column];
-            if (factor == 0.0)
-                continue;
-            for (size_t k = column; k < n; ++k)
-                a[row][k] -= factor * a[column][k];
-            right[row] -= factor * right[column];
-        }
-    }
-    for (size_t row = n; row-- > 0;)
-    {
-        for (size_t k = row + 1; k < n; ++k)
-            right[row] -= a[row][k] * right[k];
-        right[row] /= a[row][row];
-    }
-    return right;
-}
-
-// ---- rounding ------------------------------------------------------------------------------------------------------
-
-namespace
-{
-// `of` floats of this size, rounded at random: each by up to a part in 2^24.
-struct Rounder
-{
-    const Rounding& draw;
-    double one(double of) const { return draw ? of * draw() / 16777216.0 : 0.0; }
-    Vec operator()(double of) const { return draw ? Vec(one(of), one(of), one(of)) : Vec(0.0); }
-};
-} // namespace
 
 // ---- drag ----------------------------------------------------------------------------------------------------------
 
@@ -141,7 +92,8 @@ static int halvings(const DirectStrands& strands, const DirectStep& step, int bl
     const double hung = 9.81 * std::abs(double(params.forces_gravity)) +
                         double(step.info.wind.w) * (1.0 + params.forces_turbulence) + root_acceleration(step);
     most = std::max(most, (strands.nodes - 2) * hung / shortest);
-    const double need = double(step.now.seconds) * 2.0 * std::sqrt(most) / params.solver_courant;
+    const double waves = 2.0 * std::sqrt(most) / params.solver_courant;
+    const double need = double(step.now.seconds) * std::max(waves, double(step.info.turning_rate));
     const auto level_for = [&](double wanted)
     {
         int level = 0;
@@ -184,222 +136,6 @@ static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p)
 }
 
 // ---- one strand ----------------------------------------------------------------------------------------------------
-
-namespace
-{
-struct Strand
-{
-    int n;
-    double rest;
-    std::vector<Vec> x, v;
-    std::vector<double> pull; // of the segment that ends at the node
-};
-} // namespace
-
-static double mass(int node, int nodes, double tip_mass) { return node == nodes - 1 ? tip_mass : 1.0; }
-static double mobility(int node, int nodes, double tip_mass)
-{
-    return node < 2 ? 0.0 : 1.0 / mass(node, nodes, tip_mass);
-}
-
-static Vec some_normal(Vec t)
-{
-    return glm::normalize(std::abs(t.x) > 0.6 ? Vec(-t.z, 0.0, t.x) : Vec(0.0, t.z, -t.y));
-}
-
-// The smallest rotation that takes the unit vector t to the unit vector next, done to a normal of t (Rodrigues).
-static Vec transported(Vec normal, Vec t, Vec next)
-{
-    const Vec axis = glm::cross(t, next);
-    const double sine = glm::length(axis), cosine = glm::dot(t, next);
-    if (cosine < -1.0 + 1e-4)
-        return some_normal(next);
-    if (sine > 1e-14)
-    {
-        const Vec k = axis / sine;
-        normal = normal * cosine + glm::cross(k, normal) * sine + k * glm::dot(k, normal) * (1.0 - cosine);
-    }
-    return glm::normalize(normal - glm::dot(normal, next) * next);
-}
-
-// Bending stiffness over mass, 1/s^2: E I / (rho S l^4), from the modulus of a round fibre or from the droop number.
-static double stiffness_of(const HairParams& params, int nodes, double rest)
-{
-    const double length = rest * (nodes - 2), radius = 0.5e-6 * params.bending_diameter;
-    const double of_material = params.bending_modulus > 0.0f
-                                   ? 1e9 * params.bending_modulus * radius * radius / (4.0 * 1300.0)
-                                   : 9.81 * std::pow(length, 3) / params.bending_droop;
-    return of_material / std::pow(rest, 4);
-}
-
-// The implicit bending step: (M + h gain K) move = momentum - h gain K (x* - rest shape), energy
-// k/2 sum of w |second difference - rest bend|^2 (Bergou et al. 2006), twice at the clamp; x* are the prescribed nodes
-// where they end and the others where they begin.
-static void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& rest_bend, Vec along, Vec normal,
-                 double h, double gain_now, double gain_steady, std::vector<Vec>& move, const Rounder& round)
-{
-    const int n = strand.n;
-    const double k = stiffness_of(step.params, n, strand.rest);
-    std::vector<Vec> x = strand.x;
-    x[0] += move[0];
-    x[1] += move[1] + round(2.0 * glm::length(x[1]));
-    std::vector<Vec> target(size_t(n), Vec(0.0)); // of each second difference
-    if (step.curled)
-    {
-        Vec t = along;
-        for (int e = 1; e + 1 < n; ++e)
-        {
-            const Vec part = rest_bend[size_t(e)];
-            target[size_t(e)] = part.x * t + part.y * normal + part.z * glm::cross(t, normal);
-            const Vec segment = x[size_t(e + 1)] - x[size_t(e)];
-            const Vec next = glm::length(segment) > 1e-6 * strand.rest ? glm::normalize(segment) + round(4.0) : t;
-            normal = transported(normal, t, next) + round(16.0);
-            t = next;
-        }
-    }
-    // D: second differences of all nodes; W their weights.
-    Matrix d = zeros(n, n);
-    std::vector<double> w(size_t(n), 0.0);
-    std::vector<Vec> off(size_t(n), Vec(0.0));
-    for (int e = 1; e + 1 < n; ++e)
-    {
-        d[size_t(e)][size_t(e - 1)] = d[size_t(e)][size_t(e + 1)] = 1.0;
-        d[size_t(e)][size_t(e)] = -2.0;
-        w[size_t(e)] =
-            (e == 1 ? 2.0 : 1.0) * std::exp(-double(step.params.bending_attenuation) * (e - 1) / double(n - 2));
-        off[size_t(e)] = x[size_t(e - 1)] - 2.0 * x[size_t(e)] + x[size_t(e + 1)] - target[size_t(e)];
-        off[size_t(e)] += round(6.0 * strand.rest + (e < 3 ? glm::length(x[1]) : 0.0));
-    }
-    Matrix a = zeros(n - 2, n - 2);
-    std::vector<Vec> right(size_t(n - 2));
-    for (int i = 2; i < n; ++i)
-    {
-        right[size_t(i - 2)] = move[size_t(i)];
-        a[size_t(i - 2)][size_t(i - 2)] = mass(i, n, step.tip_mass);
-        for (int e = 1; e + 1 < n; ++e)
-        {
-            const double force = k * w[size_t(e)] * d[size_t(e)][size_t(i)];
-            right[size_t(i - 2)] -= h * gain_now * force * off[size_t(e)];
-            for (int j = 2; j < n; ++j)
-            {
-                const double entry = h * gain_steady * force * d[size_t(e)][size_t(j)];
-                a[size_t(i - 2)][size_t(j - 2)] += entry + round.one(8.0 * entry);
-            }
-        }
-        right[size_t(i - 2)] += round(4.0 * glm::length(right[size_t(i - 2)]));
-    }
-    const std::vector<Vec> solution = solved(a, right);
-    for (int i = 2; i < n; ++i)
-        move[size_t(i)] = solution[size_t(i - 2)] + round(4.0 * glm::length(solution[size_t(i - 2)]));
-}
-
-static double worst_residual(const std::vector<Vec>& a, const std::vector<Vec>& move, double rest)
-{
-    double worst = 0.0;
-    for (size_t k = 2; k < move.size(); ++k)
-    {
-        const Vec d = a[k] + move[k] - move[k - 1];
-        const double off = std::abs(glm::dot(d, d) / (rest * rest) - 1.0);
-        worst = std::isfinite(off) ? std::max(worst, off) : INFINITY;
-    }
-    return worst;
-}
-
-// A round of Newton's method for |a + change| = l with corrections along a (SHAKE, Ryckaert et al. 1977).
-static void shake(Strand& strand, const std::vector<Vec>& a, std::vector<Vec>& move, double hg, double tip_mass,
-                  const Rounder& round)
-{
-    const int n = strand.n, links = n - 2;
-    const double rest = strand.rest;
-    Matrix jacobian = zeros(links, links);
-    std::vector<double> excess(size_t(links), 0.0);
-    for (int k = 2; k < n; ++k)
-    {
-        const size_t row = size_t(k - 2);
-        const Vec d = a[size_t(k)] + move[size_t(k)] - move[size_t(k - 1)];
-        const double parts =
-            glm::length(a[size_t(k)]) + glm::length(move[size_t(k)]) + glm::length(move[size_t(k - 1)]);
-        excess[row] = 0.5 * (glm::dot(d, d) - rest * rest) +
-                      round.one(2.0 * (glm::dot(d, d) + rest * rest) + 2.0 * glm::length(d) * parts);
-        // Lambda of segment j pulls node j back along a[j] and node j - 1 forth.
-        const auto entry = [&](int j, double weight)
-        {
-            const double product = weight * glm::dot(d, a[size_t(j)]);
-            jacobian[row][size_t(j - 2)] =
-                product + round.one(6.0 * weight * glm::length(d) * glm::length(a[size_t(j)]));
-        };
-        const double before = mobility(k - 1, n, tip_mass), own = mobility(k, n, tip_mass);
-        if (k > 2)
-            entry(k - 1, -before);
-        entry(k, before + own);
-        if (k + 1 < n)
-            entry(k + 1, -own);
-    }
-    const std::vector<double> lambda = solved(jacobian, excess);
-    for (int k = 2; k < n; ++k)
-    {
-        const Vec forth = k + 1 < n ? lambda[size_t(k - 1)] * a[size_t(k + 1)] : Vec(0.0);
-        const Vec back = lambda[size_t(k - 2)] * a[size_t(k)];
-        move[size_t(k)] += mobility(k, n, tip_mass) * (forth - back) +
-                           round(3.0 * (glm::length(forth) + glm::length(back)) + glm::length(move[size_t(k)]));
-        strand.pull[size_t(k)] +=
-            lambda[size_t(k - 2)] / hg + round.one(3.0 * std::abs(lambda[size_t(k - 2)] / hg) + strand.pull[size_t(k)]);
-    }
-}
-
-// From the prediction: nodes farther than twice their place along the strand are fetched to there, over-relaxed sweeps
-// with every second segment at once, then each node at its length from its parent (Mueller, Kim, Chentanez 2012).
-// Returns whether the prediction was a number.
-static bool rescue(Strand& strand, std::vector<Vec>& move, double tip_mass, double& kept, const Rounder& round)
-{
-    const int n = strand.n;
-    const auto energy = [&]
-    {
-        double sum = 0.0;
-        for (int k = 2; k < n; ++k)
-            sum += (k + 1 < n ? 1.0 : tip_mass) * glm::dot(move[size_t(k)] - move[1], move[size_t(k)] - move[1]);
-        return sum;
-    };
-    const double predicted = energy();
-    std::vector<Vec> q;
-    for (int k = 0; k < n; ++k)
-        q.push_back(strand.x[size_t(k)] + move[size_t(k)]);
-    const Vec along = q[1] - q[0];
-    bool sound = true;
-    for (int k = 2; k < n; ++k)
-    {
-        const double most = 2.0 * (k - 1) * strand.rest, is = glm::length(q[size_t(k)] - q[1]);
-        sound &= is < 1e15;
-        if (!(is < 1e15))
-            q[size_t(k)] = q[1] + double(k - 1) * along;
-        else if (is > most)
-            q[size_t(k)] = q[1] + (q[size_t(k)] - q[1]) * (most / is);
-        q[size_t(k)] += round(4.0 * glm::length(q[size_t(k)]));
-    }
-    for (int half = 0; half < 16; ++half)
-        for (int k = 2 + half % 2; k < n; k += 2)
-        {
-            const Vec d = q[size_t(k)] - q[size_t(k - 1)];
-            const double is = glm::length(d), before = k > 2 ? 1.0 : 0.0;
-            const Vec correction =
-                is > 1e-6 * strand.rest ? 1.8 * (1.0 - strand.rest / is) / (1.0 + before) * d : Vec(0.0);
-            q[size_t(k)] -= correction + round(4.0 * glm::length(q[size_t(k)]));
-            q[size_t(k - 1)] += before * correction;
-        }
-    for (int k = 2; k < n; ++k)
-    {
-        const Vec d = q[size_t(k)] - q[size_t(k - 1)];
-        const double is = glm::length(d);
-        q[size_t(k)] = q[size_t(k - 1)] + (is > 1e-6 * strand.rest ? d * (strand.rest / is) : along);
-        q[size_t(k)] += round(2.0 * glm::length(q[size_t(k)]));
-        move[size_t(k)] = q[size_t(k)] - strand.x[size_t(k)];
-        strand.pull[size_t(k)] = 0.0;
-    }
-    // Of the velocity against the root: a projection adds no kinetic energy.
-    const double is = energy();
-    kept = is <= predicted ? 1.0 : predicted < is ? std::sqrt(predicted / is) : 0.0;
-    return sound;
-}
 
 // A node that would end inside a body goes to its surface; friction takes up to its coefficient times that push from
 // how far the node slid over the body (Coulomb).

@@ -25,6 +25,7 @@ struct Case
     bool bending, curled, wind, repulsion, contact, teleport;
     void (*change)(HairParams&);
     double seconds_before = 1.0 / 60.0;
+    double turning_rate = 0.0, bend_most = 1e30;
     bool density() const { return repulsion; }
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -62,20 +63,24 @@ class DirectPass : public testing::TestWithParam<Case>
         step.reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
         if (c.contact)
             step.bodies = {{glm::dvec3(groom.center), 0.1f, true}};
-        for (int i = 0; c.contact && i < 6; ++i)
+        for (int i = 0; c.contact && i < 6; ++i) // some make creases with the large one
             step.bodies.push_back(
-                {rounded(0.15 * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f, i % 2 == 1});
+                {rounded((i < 3 ? 0.115 : 0.15) * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f,
+                 i % 2 == 1});
         step.info =
             make_step_info(params, groom, step.before, step.head_velocity, step.now, int(step.bodies.size()), true);
         step.teleport = step.info.teleport;
         ASSERT_EQ(step.teleport, c.teleport);
         path = make_step_path(params, step.before, step.now, step.teleport, step.seconds_before);
-        set_direct(step.info, path, groom,
+        RestShape curls;
+        curls.turning_rate = c.turning_rate;
+        curls.bend_most = c.bend_most;
+        set_direct(step.info, path, groom, curls,
                    int(std::count_if(step.bodies.begin(), step.bodies.end(),
                                      [](const oracle::Sphere& s) { return s.on_head; })));
         const size_t voxels = 20 * 20 * 20;
         for (size_t i = 0; c.repulsion && i < voxels; ++i)
-            step.gradient.push_back(rounded(random.vector(3.0 * 4096.0)));
+            step.gradient.push_back(rounded(random.vector(40.0 * 4096.0)));
         make_state();
     }
 
@@ -273,20 +278,30 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
                               v = apart(points(on_device, "velocity"), expected.velocity),
                               p = apart(scalars(on_device, "multiplier", c.nodes), expected.multiplier),
                               t = apart(scalars(on_device, "tension_next", 1), expected.tension);
-    int loose = 0;
+    int loose = 0, beyond = 0;
+    std::string apart_most;
     double moved = 0.0;
     for (size_t s = 0; s < strands; ++s)
     {
-        const double length = state.segment_length[s] * (c.nodes - 2);
-        EXPECT_LE(x[s], 4.0 * place[s] + 1e-8) << "strand " << s;
-        EXPECT_LE(v[s], 4.0 * speed[s] + 1e-7) << "strand " << s;
-        EXPECT_LE(p[s], 4.0 * pull[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
-        EXPECT_LE(t[s], 4.0 * tension[s] + 1e-6 * expected.tension[s] + 1e-3) << "strand " << s;
-        loose += 4.0 * place[s] > 1e-4 * length;
         moved = std::max(
             moved, glm::distance(expected.position[s * size_t(c.nodes) + 2], state.position[s * size_t(c.nodes) + 2]));
+        if (4.0 * place[s] > 1e-4 * state.segment_length[s] * (c.nodes - 2))
+        {
+            ++loose;
+            continue;
+        }
+        const bool as_twin = x[s] <= 4.0 * place[s] + 1e-8 && v[s] <= 4.0 * speed[s] + 1e-7 &&
+                             p[s] <= 4.0 * pull[s] + 1e-6 * expected.tension[s] + 1e-3 &&
+                             t[s] <= 4.0 * tension[s] + 1e-6 * expected.tension[s] + 1e-3;
+        if (!as_twin)
+            apart_most += fmt::format("strand {}: {} m of {}, {} m/s of {}, multiplier {} of {}, tension {} of {}\n", s,
+                                      x[s], place[s], v[s], speed[s], p[s], pull[s], t[s], tension[s]);
+        beyond += !as_twin;
     }
-    EXPECT_LT(loose, c.strands / 4) << "of strands for which the comparison says little";
+    // What a rounding tips over once in a hundred times, such as which of two bodies is the nearer, may have escaped
+    // the draws in a strand or two.
+    EXPECT_LE(beyond, c.strands / 100) << apart_most;
+    EXPECT_LT(loose, c.strands / 3) << "of strands for which rounding has the say";
     EXPECT_GT(moved, 1e-4);
     EXPECT_EQ(read<int>(test_device(), on_device.at("pace_next"), size_t(groom.blocks)), expected.pace);
     EXPECT_EQ(counts(on_device, "resets"), expected.resets);
@@ -294,6 +309,23 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
     std::vector<double> sorted = x;
     std::nth_element(sorted.begin(), sorted.begin() + c.strands / 2, sorted.end());
     EXPECT_LE(sorted[strands / 2], 1e-6);
+}
+
+TEST_P(DirectPass, DecidesAlikeAtEveryWidth)
+{
+    const Case& c = GetParam();
+    if (c.strands != 101) // of each kind of strand once: kernels take a second each to build
+        return;
+    const Buffers at[] = {simulated(16), simulated(8), simulated(1)};
+    for (const Buffers& other : {at[1], at[2]})
+    {
+        EXPECT_EQ(bytes_of(test_device(), at[0].at("pace_next")), bytes_of(test_device(), other.at("pace_next")));
+        EXPECT_EQ(counts(at[0], "resets"), counts(other, "resets"));
+        // Compilers contract sums and products as they like, so that bits differ; see the twin for how far.
+        std::vector<double> apart_by = apart(points(at[0], "position"), points(other, "position"));
+        std::nth_element(apart_by.begin(), apart_by.begin() + c.strands / 2, apart_by.end());
+        EXPECT_LE(apart_by[size_t(c.strands / 2)], 1e-6);
+    }
 }
 
 TEST_P(DirectPass, AddsItsNodesToTheDensityInFixedPoint)
@@ -386,6 +418,7 @@ void curls(HairParams& p)
     p.bending_droop = 5.0f;
     p.bending_attenuation = 1.0f;
     p.forces_friction = 0.5f;
+    p.forces_repulsion = 20.0f; // some of it beyond its bound
     p.solver_courant = 1.5f;
 }
 void material(HairParams& p)
@@ -404,14 +437,15 @@ void floor_of_4(HairParams& p)
 
 INSTANTIATE_TEST_SUITE_P(
     All, DirectPass,
-    testing::Values(Case{"everything", 16, 16, 475, true, true, true, true, true, false, curls},
-                    Case{"everything_8_wide", 8, 16, 470, true, true, true, true, true, false, curls, 1.0 / 120.0},
+    testing::Values(Case{"everything", 16, 16, 235, true, true, true, true, true, false, curls},
+                    Case{"everything_8_wide", 8, 16, 230, true, true, true, true, true, false, curls, 1.0 / 120.0},
                     Case{"everything_1_wide", 1, 16, 101, true, true, true, true, true, false, nullptr},
-                    Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls},
+                    Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls, 1.0 / 60.0, 300.0, 2e5},
                     Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
                     Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},
                     Case{"strands_of_3", 16, 3, 101, true, false, true, false, false, false, nullptr},
-                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm},
+                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm, 1.0 / 60.0,
+                         200.0},
                     Case{"strands_of_33", 16, 33, 97, true, true, false, false, false, false, floor_of_4},
                     Case{"strands_of_33_8_wide", 8, 33, 97, false, false, false, false, true, false, nullptr}),
     [](const auto& test) { return std::string(test.param.name); });

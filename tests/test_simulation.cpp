@@ -143,7 +143,7 @@ TEST_P(AnySolver, AMirroredGroomMovesMirrored)
                 worst = std::max(worst, glm::distance(x[s * 16 + k], x[(s + 1) * 16 + k] * Vec(-1, 1, 1)));
         // Floats round alike on both sides of zero. The grid's weights do not, and steps carry that on; where strands
         // are squeezed between spheres, a hundredfold in a step, so that one cannot ask for long. The direct solver may
-        // stop a round sooner on one side: within its tolerance, half a thousandth of 0.2 m, and steps carry that on too.
+        // stop a round sooner on one side: within its tolerance, half a thousandth of 0.2 m each time.
         EXPECT_LE(worst, !coupled ? 0.0 : direct() ? 5e-4 : 1e-6) << (coupled ? "with" : "without") << " repulsion";
     }
 }

@@ -217,8 +217,9 @@ TEST(Params, the_device_reads_radians_and_linear_colours_and_all_else_as_authore
                     EXPECT_NEAR(d[i], linear_of_srgb(a[i]), 1e-6) << info.path() << " of " << a[i];
                 else if (info.unit == std::string("deg"))
                     EXPECT_NEAR(d[i], a[i] * std::numbers::pi / 180.0, 1e-6 * std::abs(d[i])) << info.path();
-                else
-                    EXPECT_EQ(d[i], a[i]) << info.path();
+                else // waves that the strands take as their shape are not laid on once more
+                    EXPECT_EQ(d[i], waves_are_shape(authored) && info.path().ends_with("_amplitude") ? 0.0f : a[i])
+                        << info.path();
         }
         const float4 l = device.look_light_direction, from = authored.look_light_direction;
         const double norm = std::hypot(double(from.x), double(from.y), double(from.z));

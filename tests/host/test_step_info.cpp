@@ -344,6 +344,72 @@ TEST(StepInfo, the_grid_is_as_large_for_every_pose)
     EXPECT_EQ(a.grid_corner.w, b.grid_corner.w);
 }
 
+// The direct solver's table of drag: mean velocities of one substep and the next.
+TEST(StepPath, drag_is_what_integrating_it_gives_at_every_pace)
+{
+    for (const double drag : {0.0, 1e-6, 0.5, 3.0, 100.0})
+        for (const double seconds_before : {1.0 / 60.0, 1.0 / 240.0})
+        {
+            HairParams params;
+            params.forces_drag = float(drag);
+            const Substep now;
+            const StepPath path = make_step_path(params, {}, now, false, seconds_before);
+            for (int from = 0; from <= DRAG_WITHIN; ++from)
+                for (int to = 0; to < PACES; ++to)
+                {
+                    const double h = double(now.seconds) / (1 << to);
+                    const double before = from == 0             ? 0.0
+                                          : from == DRAG_WITHIN ? h
+                                                                : seconds_before / (1 << (from - 1));
+                    const float4 got = path.drag[PACES * from + to];
+                    for (const auto& [start, force] : {std::pair(1.0, 0.0), std::pair(0.0, 9.81), std::pair(-2.0, 5.0)})
+                    {
+                        // Velocity by the midpoint rule, from the begin of the substep before.
+                        constexpr int kParts = 2000;
+                        double v = start, mean[2] = {start, 0.0};
+                        for (const bool second : {false, true})
+                        {
+                            const double dt = (second ? h : before) / kParts;
+                            double sum = 0.0;
+                            for (int i = 0; i < kParts && dt > 0.0; ++i)
+                            {
+                                const double middle = v + 0.5 * dt * (force - drag * v);
+                                sum += middle;
+                                v += dt * (force - drag * middle);
+                            }
+                            if (dt > 0.0)
+                                mean[second] = sum / kParts;
+                        }
+                        EXPECT_NEAR(double(got.x) * mean[0] + double(got.y) * force, mean[1], 1e-6)
+                            << drag << ", from " << from << " to " << to;
+                    }
+                }
+        }
+}
+
+TEST(StepPath, the_head_goes_its_way_in_sixteenths_and_nowhere_in_a_leap)
+{
+    const Pose before{{100, 2, 3}, glm::angleAxis(0.4, glm::dvec3(0, 1, 0)), {}};
+    Substep now = moved_to({100.1, 2, 3.05}, 0.6);
+    const auto origin = [](const StepPath& path, int i)
+    { return glm::dvec3(path.row[3 * i].w, path.row[3 * i + 1].w, path.row[3 * i + 2].w); };
+    const StepPath straight = make_step_path({}, before, now, false, 1.0 / 60.0);
+    now.way = [&](double share) { return Pose{{100.0 + 0.1 * share * share, 2, 3.05}, before.turn, {}}; };
+    const StepPath bent = make_step_path({}, before, now, false, 1.0 / 60.0);
+    const StepPath leap = make_step_path({}, before, now, true, 1.0 / 60.0);
+    for (int i = 0; i <= MOST_SUBSTEPS; ++i)
+    {
+        const double share = i / 16.0;
+        EXPECT_LT(glm::distance(origin(straight, i), share * glm::dvec3(0.1, 0, 0.05)), 1e-8) << i;
+        const glm::dmat3 turn = rows(straight.row[3 * i], straight.row[3 * i + 1], straight.row[3 * i + 2]);
+        const glm::dquat expected = glm::angleAxis(0.4 + 0.2 * share, glm::dvec3(0, 1, 0));
+        EXPECT_LT(glm::length(turn * glm::dvec3(1, 2, 3) - expected * glm::dvec3(1, 2, 3)), 1e-6) << i;
+        EXPECT_NEAR(origin(bent, i).x, 0.1 * share * share, 1e-8) << i;
+        EXPECT_EQ(origin(leap, i), glm::dvec3(0.0)) << i;
+        EXPECT_EQ(leap.row[3 * i].x, leap.row[0].x) << i;
+    }
+}
+
 TEST(StepInfo, many_nodes_feed_the_density_by_an_even_part_that_weighs_as_much)
 {
     EXPECT_EQ(info_of(HairParams()).density_stride, 1);
