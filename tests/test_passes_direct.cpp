@@ -300,7 +300,7 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
     }
     // What a rounding tips over once in a hundred times, such as which of two bodies is the nearer, may have escaped
     // the draws in a strand or two.
-    EXPECT_LE(beyond, c.strands / 100) << apart_most;
+    EXPECT_LE(beyond, std::lround(c.strands / 100.0)) << apart_most;
     EXPECT_LT(loose, c.strands / 3) << "of strands for which rounding has the say";
     EXPECT_GT(moved, 1e-4);
     EXPECT_EQ(read<int>(test_device(), on_device.at("pace_next"), size_t(groom.blocks)), expected.pace);
