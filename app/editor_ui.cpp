@@ -142,6 +142,15 @@ void Editor::draw_status()
                 100.0 * health_.stretch_mean);
     if (!bad_strand_.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
+    if (simulation_->solver().asleep())
+        ImGui::Text("asleep: at rest, nothing runs");
+    const Quality& quality = simulation_->quality();
+    if (!quality.rungs.empty())
+    {
+        ImGui::Text("%s", quality.said.c_str());
+        ImGui::Text("substeps are predicted to be off by %.2f %%, nodes by %.2f %% of the length",
+                    100.0 * quality.time_error, 100.0 * quality.node_error);
+    }
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     double sum = 0.0;
