@@ -51,6 +51,8 @@ typedef struct StepInfo
     float4 wind;          // m/s^2; w: its length
     float4 gust_origin; // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against
                         // the wind
+    // First sample of the head's distance grid in the head's frame, m; w: between samples, m.
+    float4 body_corner;
     float4 grid_corner; // lowest corner of the grid, m; w: side of a voxel, m
     float4 sweep;    // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
                      // per fixed-point unit of density (1/m)
@@ -74,6 +76,9 @@ typedef struct StepInfo
     int sweep_axis;   // 0, 1, 2: main axis of the light's sweep
     int sweep_from;   // first slice of the sweep
     int sweep_sign;   // -1 or +1: from slice to slice
+    int body_x;       // samples of the head's distance grid along its axes; 0 without one
+    int body_y;
+    int body_z;
 } StepInfo;
 
 // One node adds this much to the density, shared out over eight voxels: fixed point, so that the order of the additions

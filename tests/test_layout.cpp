@@ -30,7 +30,8 @@ struct Field
     X(head_row0) X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity)      \
     X(head_center) X(wind) X(gust_origin) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity)      \
     X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(guides) X(drawn_multi) X(drawn) X(colliders)    \
-    X(teleport) X(last_substep) X(body_density) X(sweep_axis) X(sweep_from) X(sweep_sign)
+    X(teleport) X(last_substep) X(body_density) X(sweep_axis) X(sweep_from) X(sweep_sign)\
+    X(body_corner) X(body_x) X(body_y) X(body_z)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
 // clang-format on
 
