@@ -1,22 +1,24 @@
 // The head as a grid of signed distances to its surface (sim/distance_grid.h), for lanes. Samples lie on a lattice in
 // the head's frame that info->body_corner and body_x, body_y, body_z place; body_distance holds them in voxels, so that
-// head.scale moves and grows the grid without touching it. Build option BODY_GRID says that there is one.
+// head.scale moves and grows the grid without touching it; body_way holds which way is out on the whole, with a w of
+// 0. Build option BODY_GRID says that there is one.
 #ifndef COIF_DISTANCE_GRID_H
 #define COIF_DISTANCE_GRID_H
 #include "lanes.h"
 
-#define FAR_OUTSIDE 1e6f // m: where there is no grid
+#define FAR_OUTSIDE 1e6f // m: of what is no point
 
-// The plane that the surface is nearby: unit normal, outwards along the world's axes, and how far above it a point is.
-typedef struct BodyPlane
+// The samples about a point of each lane: the lowest of the eight, and how far the point is on its way to the next
+// ones.
+typedef struct BodyCell
 {
-    real nx, ny, nz, distance;
-} BodyPlane;
+    int first[WIDTH];
+    real fx, fy, fz;
+    real away; // how far the point is from the grid, in voxels
+} BodyCell;
 
-// At a point relative to the head's origin along the world's axes, m: the trilinear distance, and the gradient of just
-// that. In a crease, where the gradient vanishes, upwards. Outside of the grid, and where the point is not a number,
-// FAR_OUTSIDE.
-static inline BodyPlane body_plane(global const float* body_distance, real x, real y, real z, constant StepInfo* info)
+// Of a point relative to the head's origin along the world's axes, m.
+static inline BodyCell body_cell(real x, real y, real z, constant StepInfo* info)
 {
     const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2, corner = info->body_corner;
     const float inverse = 1.0f / corner.w;
@@ -24,36 +26,59 @@ static inline BodyPlane body_plane(global const float* body_distance, real x, re
     const real gx = (r0.x * x + r1.x * y + r2.x * z - corner.x) * inverse;
     const real gy = (r0.y * x + r1.y * y + r2.y * z - corner.y) * inverse;
     const real gz = (r0.z * x + r1.z * y + r2.z * z - corner.z) * inverse;
-    const whole inside = (gx >= 0.0f) & (gy >= 0.0f) & (gz >= 0.0f) & (gx < (float)(info->body_x - 1)) &
-                         (gy < (float)(info->body_y - 1)) & (gz < (float)(info->body_z - 1));
-    // Lanes outside read the first cell and forget it.
-    const real sx = select((real)(0.0f), gx, inside), sy = select((real)(0.0f), gy, inside),
-               sz = select((real)(0.0f), gz, inside);
-    const whole ix = TO_WHOLE(sx), iy = TO_WHOLE(sy), iz = TO_WHOLE(sz);
-    const real fx = sx - TO_REAL(ix), fy = sy - TO_REAL(iy), fz = sz - TO_REAL(iz);
+    // fmin and fmax leave the number of a number and a NaN, so whatever the lane holds, it reads within the grid.
+    const real sx = fmin(fmax(gx, (real)(0.0f)), (real)(info->body_x - 1));
+    const real sy = fmin(fmax(gy, (real)(0.0f)), (real)(info->body_y - 1));
+    const real sz = fmin(fmax(gz, (real)(0.0f)), (real)(info->body_z - 1));
+    const whole ix = min(TO_WHOLE(sx), (whole)(info->body_x - 2)), iy = min(TO_WHOLE(sy), (whole)(info->body_y - 2)),
+                iz = min(TO_WHOLE(sz), (whole)(info->body_z - 2));
+    BodyCell cell;
+    LANES_STORE(ix + info->body_x * (iy + info->body_y * iz), cell.first);
+    cell.fx = sx - TO_REAL(ix);
+    cell.fy = sy - TO_REAL(iy);
+    cell.fz = sz - TO_REAL(iz);
+    cell.away = sqrt((gx - sx) * (gx - sx) + (gy - sy) * (gy - sy) + (gz - sz) * (gz - sz));
+    return cell;
+}
 
-    int cell[WIDTH];
-    LANES_STORE(ix + info->body_x * (iy + info->body_y * iz), cell);
-    float corners[8][WIDTH];
-    const int row = info->body_x, plane = info->body_x * info->body_y;
+// Two values side by side for each lane.
+static inline void gather_pair(global const float* from, const int* first, real* low, real* high)
+{
+#if WIDTH == 1
+    *low = from[first[0]];
+    *high = from[first[0] + 1];
+#else
+    float pairs[2 * WIDTH];
 #pragma unroll
     for (int lane = 0; lane < WIDTH; ++lane)
-    {
-        global const float* from = body_distance + cell[lane];
-        corners[0][lane] = from[0];
-        corners[1][lane] = from[1];
-        corners[2][lane] = from[row];
-        corners[3][lane] = from[row + 1];
-        corners[4][lane] = from[plane];
-        corners[5][lane] = from[plane + 1];
-        corners[6][lane] = from[plane + row];
-        corners[7][lane] = from[plane + row + 1];
-    }
+        vstore2(vload2(0, from + first[lane]), lane, pairs);
+    const real a = LANES_LOAD(pairs), b = LANES_LOAD(pairs + WIDTH);
+    *low = (real)(a.even, b.even);
+    *high = (real)(a.odd, b.odd);
+#endif
+}
+
+// The plane that the surface is nearby: unit normal, outwards along the world's axes, and how far above it a point is.
+typedef struct BodyPlane
+{
+    real nx, ny, nz, distance;
+} BodyPlane;
+
+// At a point as above: the trilinear distance, and the gradient of just that. In a crease, where the gradient vanishes,
+// upwards. Outside of the grid, what its border has and the way there.
+static inline BodyPlane body_plane(global const float* body_distance, real x, real y, real z, constant StepInfo* info)
+{
+    const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;
+    const BodyCell cell = body_cell(x, y, z, info);
+    const real fx = cell.fx, fy = cell.fy, fz = cell.fz;
+    const int row = info->body_x, plane = info->body_x * info->body_y;
     // Along x on the cell's four edges, then along y on two of its faces, then along z; each keeps its slope.
-    const real v0 = LANES_LOAD(corners[0]), v2 = LANES_LOAD(corners[2]), v4 = LANES_LOAD(corners[4]),
-               v6 = LANES_LOAD(corners[6]);
-    const real e0 = LANES_LOAD(corners[1]) - v0, e1 = LANES_LOAD(corners[3]) - v2, e2 = LANES_LOAD(corners[5]) - v4,
-               e3 = LANES_LOAD(corners[7]) - v6;
+    real v0, v1, v2, v3, v4, v5, v6, v7;
+    gather_pair(body_distance, cell.first, &v0, &v1);
+    gather_pair(body_distance + row, cell.first, &v2, &v3);
+    gather_pair(body_distance + plane, cell.first, &v4, &v5);
+    gather_pair(body_distance + plane + row, cell.first, &v6, &v7);
+    const real e0 = v1 - v0, e1 = v3 - v2, e2 = v5 - v4, e3 = v7 - v6;
     const real a0 = v0 + fx * e0, a1 = v2 + fx * e1, a2 = v4 + fx * e2, a3 = v6 + fx * e3;
     const real b0 = a0 + fy * (a1 - a0), b1 = a2 + fy * (a3 - a2);
     const real slope_z = b1 - b0;
@@ -64,15 +89,54 @@ static inline BodyPlane body_plane(global const float* body_distance, real x, re
     const real wx = r0.x * slope_x + r0.y * slope_y + r0.z * slope_z;
     const real wy = r1.x * slope_x + r1.y * slope_y + r1.z * slope_z;
     const real wz = r2.x * slope_x + r2.y * slope_y + r2.z * slope_z;
-    const real squared = wx * wx + wy * wy + wz * wz;
-    const whole slopes = inside & (squared > 1e-8f);
+    const real squared = wx * wx + wy * wy + wz * wz, distance = (b0 + fz * slope_z + cell.away) * info->body_corner.w;
+    const whole slopes = squared > 1e-8f;
     const real shorten = INVERSE_SQRT(fmax(squared, (real)(1e-8f)));
     BodyPlane at;
     at.nx = select((real)(0.0f), wx * shorten, slopes);
     at.ny = select((real)(1.0f), wy * shorten, slopes);
     at.nz = select((real)(0.0f), wz * shorten, slopes);
-    at.distance = select((real)(FAR_OUTSIDE), (b0 + fz * slope_z) * corner.w, inside);
+    at.distance = select((real)(FAR_OUTSIDE), distance, distance < FAR_OUTSIDE);
     return at;
+}
+
+// Which way is out of the body on the whole, at points of each lane: unit length, along the world's axes.
+static inline void body_way_out(global const float4* body_way, real x, real y, real z, real* wx, real* wy, real* wz,
+                                constant StepInfo* info)
+{
+    const BodyCell cell = body_cell(x, y, z, info);
+    float fx[WIDTH], fy[WIDTH], fz[WIDTH], way_x[WIDTH], way_y[WIDTH], way_z[WIDTH];
+    LANES_STORE(cell.fx, fx);
+    LANES_STORE(cell.fy, fy);
+    LANES_STORE(cell.fz, fz);
+    const int row = info->body_x, plane = info->body_x * info->body_y;
+#pragma unroll
+    for (int lane = 0; lane < WIDTH; ++lane)
+    {
+        global const float4* from = body_way + cell.first[lane];
+        const float4 below = mix(mix(from[0], from[1], fx[lane]), mix(from[row], from[row + 1], fx[lane]), fy[lane]);
+        from += plane;
+        const float4 above = mix(mix(from[0], from[1], fx[lane]), mix(from[row], from[row + 1], fx[lane]), fy[lane]);
+        const float4 way = mix(below, above, fz[lane]);
+        way_x[lane] = way.x;
+        way_y[lane] = way.y;
+        way_z[lane] = way.z;
+    }
+    const real x_in = LANES_LOAD(way_x), y_in = LANES_LOAD(way_y), z_in = LANES_LOAD(way_z);
+    const real shorten = INVERSE_SQRT(fmax(x_in * x_in + y_in * y_in + z_in * z_in, (real)(1e-8f)));
+    const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;
+    *wx = (r0.x * x_in + r0.y * y_in + r0.z * z_in) * shorten;
+    *wy = (r1.x * x_in + r1.y * y_in + r1.z * z_in) * shorten;
+    *wz = (r2.x * x_in + r2.y * y_in + r2.z * z_in) * shorten;
+}
+
+// Moves a node straight out of the body to the plane n . p = level.
+static inline void push_above(real* x, real* y, real* z, real nx, real ny, real nz, real level)
+{
+    const real lift = fmax(level - (nx * *x + ny * *y + nz * *z), (real)(0.0f));
+    *x += lift * nx;
+    *y += lift * ny;
+    *z += lift * nz;
 }
 
 #endif

@@ -85,7 +85,15 @@ typedef struct StepInfo
 // does not matter and equal input gives equal bytes.
 #define DENSITY_ONE 4096
 
-// Spheres that a style and its head may have together.
+// A body that hair stays outside of: all within a radius of a stretch, which for a sphere has no length. Relative to the
+// head's origin along the world's axes, m.
+typedef struct Capsule
+{
+    float4 center; // one end of the stretch; w: radius
+    float4 axis;   // from there to the other end; w: 1 / its length squared, 0 for a sphere
+} Capsule;
+
+// Colliders that a style and its head may have together.
 #define MOST_COLLIDERS 512
 
 // Guides lie in blocks of 16, lane by lane, so that one vector or one work-group moves 16 strands at once.

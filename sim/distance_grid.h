@@ -2,6 +2,7 @@
 #include "sim/mesh.h"
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace coif
@@ -15,6 +16,7 @@ struct DistanceGrid
     glm::vec3 corner{0.0f};      // where the first sample is
     float voxel = 0.0f;          // between neighbours
     std::vector<float> distance; // [z][y][x]
+    std::vector<glm::vec3> way;  // which way is out on the whole, unit length; only body_grid() tells
 
     bool empty() const { return distance.empty(); }
 };
@@ -38,17 +40,34 @@ DistanceGrid compute_distance_grid(const Mesh& mesh, int resolution = kDistanceR
 DistanceGrid cached_distance_grid(const Mesh& mesh, const std::filesystem::path& folder,
                                   int resolution = kDistanceResolution);
 
+// What hair is to keep out of: the mesh with its hollows filled that no ball of that radius can enter (closing; Serra
+// 1982), such as ears and what is behind them, where strands that are pushed out would part to all sides. And which way
+// they are pushed: up the distances blurred over as much, so that neighbours go the same way though one be nearer to
+// the front of an ear and the other to its back.
+DistanceGrid body_grid(const DistanceGrid& grid, float radius);
+
 // $XDG_CACHE_HOME/coif, else ~/.cache/coif (XDG Base Directory Specification); empty if the system names neither.
 std::filesystem::path cache_folder();
 
-// Trilinear between the eight samples about a point, and the gradient of just that. Outside of the grid, and where p is
-// not a number, kFarOutside with no gradient.
+// Trilinear between the eight samples about a point, and the gradient of just that, which is of about unit length, less
+// in a crease. Outside of the grid, what its border has and the way there. kFarOutside where p is no point.
 struct DistanceAt
 {
     float distance;
-    glm::vec3 gradient; // as it is: about unit length, 0 at best in a crease
+    glm::vec3 gradient;
 };
 constexpr float kFarOutside = 1e9f;
 DistanceAt distance_at(const DistanceGrid& grid, glm::vec3 p);
+
+// A grid in the head's frame, m: what is at p in the mesh stands at scale p + offset. May have none.
+struct PlacedGrid
+{
+    std::shared_ptr<const DistanceGrid> grid;
+    float scale = 1.0f;
+    glm::vec3 offset{0.0f};
+};
+
+// Of a point in the head's frame, m; kFarOutside if there is no grid.
+float distance_to(const PlacedGrid& body, glm::vec3 p);
 
 } // namespace coif

@@ -5,8 +5,8 @@ namespace coif
 {
 
 // How well the hair holds together at one moment. Stretch is |length / rest - 1| of a segment, nodes 1 and outwards;
-// penetration is how deep a node lies inside a collider, nodes 2 and outwards (0 and 1 lie under the scalp by design),
-// before wave offsets.
+// penetration is how deep a node lies inside the head or a collider, nodes 2 and outwards (0 and 1 lie under the scalp
+// by design), before wave offsets.
 struct Health
 {
     double stretch_max = 0.0, stretch_mean = 0.0; // fractions

@@ -27,7 +27,9 @@ Solver::Solver(const Device& device, const HairParams& params, const Groom& groo
     params_ = device_params(params);
     buffers_["params"] = allocate(device, sizeof(HairParams), "the parameters");
     buffers_["info"] = allocate(device, sizeof(StepInfo), "the step");
-    buffers_["colliders"] = allocate(device, sizeof(float4), "the colliders");
+    buffers_["colliders"] = allocate(device, sizeof(Capsule), "the colliders");
+    buffers_["body_distance"] = allocate(device, sizeof(float), "the head's distances");
+    buffers_["body_way"] = allocate(device, sizeof(float), "the head's distances");
     head_ = head;
     set_groom(groom);
     set_params(params);
@@ -100,17 +102,43 @@ void Solver::set_groom(const Groom& groom)
 void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
     if (colliders.size() > colliders_.size())
-        buffers_["colliders"] = allocate(device_, colliders.size() * sizeof(float4), "the colliders");
+        buffers_["colliders"] = allocate(device_, colliders.size() * sizeof(Capsule), "the colliders");
     colliders_ = colliders;
 }
 
-std::vector<float4> Solver::placed_colliders() const
+void Solver::set_body(const PlacedGrid& body)
 {
-    std::vector<float4> placed;
+    if (body.grid && body.grid != body_.grid)
+    {
+        std::vector<float> in_voxels;
+        for (const float distance : body.grid->distance)
+            in_voxels.push_back(distance / body.grid->voxel);
+        std::vector<float4> ways;
+        for (const glm::vec3& way : body.grid->way)
+            ways.push_back(F4(way.x, way.y, way.z, 0.0f));
+        Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
+        fresh["body_distance"] = allocate(device_, in_voxels.size() * sizeof(float), "the head's distances");
+        fresh["body_way"] = allocate(device_, ways.size() * sizeof(float4), "the head's distances");
+        write(device_, fresh["body_distance"], in_voxels);
+        write(device_, fresh["body_way"], ways);
+        buffers_ = fresh;
+    }
+    body_ = body;
+}
+
+std::vector<Capsule> Solver::placed_colliders() const
+{
+    std::vector<Capsule> placed;
     for (const Collider& c : colliders_)
     {
         const glm::dvec3 center = c.on_head ? head_.turn * glm::dvec3(c.center) : glm::dvec3(c.center) - head_.origin;
-        placed.push_back(F4(float(center.x), float(center.y), float(center.z), c.radius));
+        const glm::dvec3 along = c.to ? glm::dvec3(*c.to) - glm::dvec3(c.center) : glm::dvec3(0.0);
+        const glm::dvec3 axis = c.on_head ? head_.turn * along : along;
+        // An axis that is short against the radius is none.
+        const double squared = glm::dot(axis, axis), least = 1e-6 * double(c.radius) * double(c.radius);
+        placed.push_back(
+            {F4(float(center.x), float(center.y), float(center.z), c.radius),
+             F4(float(axis.x), float(axis.y), float(axis.z), squared > least ? float(1.0 / squared) : 0.0f)});
     }
     return placed;
 }
@@ -191,8 +219,8 @@ void Solver::upload(const StepInfo& info)
         device_.queue.enqueueWriteBuffer(buffer(name), CL_FALSE, 0, bytes, in_flight_.back().data());
     };
     send("info", &info, sizeof info);
-    const std::vector<float4> placed = placed_colliders();
-    send("colliders", placed.data(), placed.size() * sizeof(float4));
+    const std::vector<Capsule> placed = placed_colliders();
+    send("colliders", placed.data(), placed.size() * sizeof(Capsule));
 }
 
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
@@ -203,8 +231,8 @@ void Solver::simulate(const StepInfo& info)
     if (info.last_substep && density)
         launch("clear_density", "", grid_voxels(params_));
     launch_strands("simulate_pbd",
-                   fmt::format("{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
-                               density ? "-D DENSITY " : ""),
+                   fmt::format("{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                               density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : ""),
                    size_t(groom_.blocks) * LANES);
 }
 
@@ -220,7 +248,7 @@ void Solver::step(const std::vector<Substep>& wanted)
     {
         const Substep& now = substeps[i];
         const StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
-                                             i + 1 == substeps.size());
+                                             i + 1 == substeps.size(), body_);
         if (info.teleport)
             jumped_ += now.head.origin - head_.origin;
         else
@@ -248,9 +276,10 @@ void Solver::draw()
 {
     // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
     StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
-                                   int(colliders_.size()), true);
+                                   int(colliders_.size()), true, body_);
     upload(info);
-    const std::string shadow = has_shadow() ? "-D SHADOW" : "";
+    const std::string options =
+        fmt::format("{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "");
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
@@ -259,10 +288,14 @@ void Solver::draw()
         if (!colliders_.empty())
             launches_.emplace_back("add_bodies", run(device_, kernel("add_bodies", ""), buffers_,
                                                      cl::NDRange(side, side, colliders_.size())));
+        if (body_.grid)
+            launches_.emplace_back(
+                "add_head", run(device_, kernel("add_head", ""), buffers_,
+                                cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
         launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
     }
-    launch_strands("interpolate_multi", shadow, size_t(groom_.drawn_multi));
-    launch_strands("interpolate_single", shadow, groom_.drawn.size() - size_t(groom_.drawn_multi));
+    launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
+    launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
     launch_strands("transport_frames", "", groom_.drawn.size());
 }
 

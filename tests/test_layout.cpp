@@ -28,10 +28,11 @@ struct Field
 // clang-format off
 #define STEP_FIELDS(X)                                                                                                 \
     X(head_row0) X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity)      \
-    X(head_center) X(wind) X(gust_origin) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity)      \
-    X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(guides) X(drawn_multi) X(drawn) X(colliders)    \
-    X(teleport) X(last_substep) X(body_density) X(sweep_axis) X(sweep_from) X(sweep_sign)\
-    X(body_corner) X(body_x) X(body_y) X(body_z)
+    X(head_center) X(wind) X(gust_origin) X(body_corner) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain)  \
+    X(gravity) X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(guides) X(drawn_multi) X(drawn)      \
+    X(colliders) X(teleport) X(last_substep) X(body_density) X(sweep_axis) X(sweep_from) X(sweep_sign)                 \
+    X(body_x) X(body_y) X(body_z)
+#define CAPSULE_FIELDS(X) X(center) X(axis)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
 // clang-format on
 
@@ -49,8 +50,10 @@ std::vector<Field> all_fields()
     std::vector<Field> fields = fields_of_params();
 #define STEP_FIELD(name) fields.push_back({"StepInfo", #name, int(offsetof(StepInfo, name))});
 #define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
+#define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
     STEP_FIELDS(STEP_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
+    CAPSULE_FIELDS(CAPSULE_FIELD)
     return fields;
 }
 
@@ -70,10 +73,10 @@ std::vector<std::string> members_in_text(const std::string& text, const std::str
     return names;
 }
 
-TEST(Layout, TheTestKnowsEveryFieldOfStepInfoAndDrawnStrand)
+TEST(Layout, TheTestKnowsEveryFieldOfTheStructs)
 {
     const std::string text = read_file(data_folder() / "kernels" / "shared.h");
-    for (const std::string type : {"StepInfo", "DrawnStrand"})
+    for (const std::string type : {"StepInfo", "DrawnStrand", "Capsule"})
     {
         std::vector<std::string> known;
         for (const Field& field : all_fields())
@@ -91,7 +94,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "DrawnStrand"})
+    for (const char* type : {"HairParams", "StepInfo", "DrawnStrand", "Capsule"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -102,20 +105,21 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         fs::copy_file(data_folder() / "kernels" / header, folder / header);
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
-                                            "    DrawnStrand DrawnStrand_;\n" +
+                                            "    DrawnStrand DrawnStrand_;\n    Capsule Capsule_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 3, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 4, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 3);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 4);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
     EXPECT_EQ(offset[fields.size()], int(sizeof(HairParams)));
     EXPECT_EQ(offset[fields.size() + 1], int(sizeof(StepInfo)));
     EXPECT_EQ(offset[fields.size() + 2], int(sizeof(DrawnStrand)));
+    EXPECT_EQ(offset[fields.size() + 3], int(sizeof(Capsule)));
 }
 
 // A program whose only purpose is to make a uniform block active.

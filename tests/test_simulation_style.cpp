@@ -56,11 +56,12 @@ void set_other(Hairstyle& style, const ParamInfo& info)
 
 TEST(Style, EverySliderThatActsOnTheHairActsInTheNextStep)
 {
-    // Of these the hair knows nothing: where the head's mesh is drawn, and what only the shaders read of a wave. There
+    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only the shaders read of a wave. There
     // is one way yet to choose guides.
     const std::set<std::string> elsewhere = {"head.mesh_scale",          "wave.normal_frequency",
                                              "wave.normal_randomness",   "wave.binormal_frequency",
-                                             "wave.binormal_randomness", "interpolation.guides"};
+                                             "wave.binormal_randomness", "interpolation.guides",
+                                             "head.contact"};
     Simulation simulation(test_device(), busy_style());
     simulation.settle(0.5);
     const std::vector<uint8_t> position = bytes_of(test_device(), simulation.solver().buffers().at("position"));
@@ -151,7 +152,7 @@ TEST(Style, AChangeThatFailsLeavesEverythingAsItWas)
 TEST(Style, CollidersComeGoAndMoveWithTheirOwner)
 {
     Simulation simulation(test_device(), busy_style());
-    const size_t own = simulation.assets().spheres.size();
+    const size_t own = simulation.solver().placed_colliders().size();
     Hairstyle style = busy_style();
     style.host.colliders = {{{0.0f, -0.3f, 0.0f}, 0.1f, false}, {{0.1f, -0.2f, 0.0f}, 0.05f, true}};
     simulation.set_style(style);
@@ -159,10 +160,11 @@ TEST(Style, CollidersComeGoAndMoveWithTheirOwner)
     hand.origin = {0.1, 0.0, 0.0};
     hand.turn = glm::angleAxis(0.5, glm::dvec3(0, 0, 1));
     simulation.step(hand);
-    const std::vector<float4> placed = simulation.solver().placed_colliders();
+    const std::vector<Capsule> placed = simulation.solver().placed_colliders();
     ASSERT_EQ(placed.size(), own + 2);
-    EXPECT_NEAR(placed[own].x, -0.1, 1e-7) << "one in the world stays there, and the head has moved";
-    EXPECT_NEAR(placed[own + 1].x, 0.1 * std::cos(0.5) + 0.2 * std::sin(0.5), 1e-7) << "one on the head turns with it";
+    EXPECT_NEAR(placed[own].center.x, -0.1, 1e-7) << "one in the world stays there, and the head has moved";
+    EXPECT_NEAR(placed[own + 1].center.x, 0.1 * std::cos(0.5) + 0.2 * std::sin(0.5), 1e-7)
+        << "one on the head turns with it";
     style.host.colliders.clear();
     simulation.set_style(style);
     simulation.step(hand);
