@@ -1,7 +1,7 @@
 // The head as a grid of signed distances to its surface (sim/distance_grid.h), for lanes. Samples lie on a lattice in
 // the head's frame that info->body_corner and body_x, body_y, body_z place; body_distance holds them in voxels, so that
-// head.scale moves and grows the grid without touching it; body_way holds which way is out on the whole, with a w of
-// 0. Build option BODY_GRID says that there is one.
+// head.scale moves and grows the grid without touching it; body_way holds which way is out on the whole at every
+// second one, with a w of 0. Build option BODY_GRID says that there is one.
 #ifndef COIF_DISTANCE_GRID_H
 #define COIF_DISTANCE_GRID_H
 #include "lanes.h"
@@ -14,26 +14,28 @@ typedef struct BodyCell
 {
     int first[WIDTH];
     real fx, fy, fz;
-    real away; // how far the point is from the grid, in voxels
+    real away; // how far the point is from the lattice, in its spacings
 } BodyCell;
 
-// Of a point relative to the head's origin along the world's axes, m.
-static inline BodyCell body_cell(real x, real y, real z, constant StepInfo* info)
+// Of a point relative to the head's origin along the world's axes, m, on the lattice of every `stride`-th sample along
+// each axis.
+static inline BodyCell body_cell(real x, real y, real z, int size_x, int size_y, int size_z, float stride,
+                                 constant StepInfo* info)
 {
     const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2, corner = info->body_corner;
-    const float inverse = 1.0f / corner.w;
+    const float inverse = 1.0f / (stride * corner.w);
     // To the head's frame, by the transposed rotation.
     const real gx = (r0.x * x + r1.x * y + r2.x * z - corner.x) * inverse;
     const real gy = (r0.y * x + r1.y * y + r2.y * z - corner.y) * inverse;
     const real gz = (r0.z * x + r1.z * y + r2.z * z - corner.z) * inverse;
     // fmin and fmax leave the number of a number and a NaN, so whatever the lane holds, it reads within the grid.
-    const real sx = fmin(fmax(gx, (real)(0.0f)), (real)(info->body_x - 1));
-    const real sy = fmin(fmax(gy, (real)(0.0f)), (real)(info->body_y - 1));
-    const real sz = fmin(fmax(gz, (real)(0.0f)), (real)(info->body_z - 1));
-    const whole ix = min(TO_WHOLE(sx), (whole)(info->body_x - 2)), iy = min(TO_WHOLE(sy), (whole)(info->body_y - 2)),
-                iz = min(TO_WHOLE(sz), (whole)(info->body_z - 2));
+    const real sx = fmin(fmax(gx, (real)(0.0f)), (real)(size_x - 1));
+    const real sy = fmin(fmax(gy, (real)(0.0f)), (real)(size_y - 1));
+    const real sz = fmin(fmax(gz, (real)(0.0f)), (real)(size_z - 1));
+    const whole ix = min(TO_WHOLE(sx), (whole)(size_x - 2)), iy = min(TO_WHOLE(sy), (whole)(size_y - 2)),
+                iz = min(TO_WHOLE(sz), (whole)(size_z - 2));
     BodyCell cell;
-    LANES_STORE(ix + info->body_x * (iy + info->body_y * iz), cell.first);
+    LANES_STORE(ix + size_x * (iy + size_y * iz), cell.first);
     cell.fx = sx - TO_REAL(ix);
     cell.fy = sy - TO_REAL(iy);
     cell.fz = sz - TO_REAL(iz);
@@ -69,7 +71,7 @@ typedef struct BodyPlane
 static inline BodyPlane body_plane(global const float* body_distance, real x, real y, real z, constant StepInfo* info)
 {
     const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;
-    const BodyCell cell = body_cell(x, y, z, info);
+    const BodyCell cell = body_cell(x, y, z, info->body_x, info->body_y, info->body_z, 1.0f, info);
     const real fx = cell.fx, fy = cell.fy, fz = cell.fz;
     const int row = info->body_x, plane = info->body_x * info->body_y;
     // Along x on the cell's four edges, then along y on two of its faces, then along z; each keeps its slope.
@@ -104,12 +106,13 @@ static inline BodyPlane body_plane(global const float* body_distance, real x, re
 static inline void body_way_out(global const float4* body_way, real x, real y, real z, real* wx, real* wy, real* wz,
                                 constant StepInfo* info)
 {
-    const BodyCell cell = body_cell(x, y, z, info);
+    const int size_x = info->body_x / 2 + 1, size_y = info->body_y / 2 + 1, size_z = info->body_z / 2 + 1;
+    const BodyCell cell = body_cell(x, y, z, size_x, size_y, size_z, 2.0f, info);
     float fx[WIDTH], fy[WIDTH], fz[WIDTH], way_x[WIDTH], way_y[WIDTH], way_z[WIDTH];
     LANES_STORE(cell.fx, fx);
     LANES_STORE(cell.fy, fy);
     LANES_STORE(cell.fz, fz);
-    const int row = info->body_x, plane = info->body_x * info->body_y;
+    const int row = size_x, plane = size_x * size_y;
 #pragma unroll
     for (int lane = 0; lane < WIDTH; ++lane)
     {

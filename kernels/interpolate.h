@@ -64,7 +64,7 @@ static inline void cut_strands(const Points* full, real cut, Points* node)
     }
 }
 
-#define STEPS_OUT 6
+#define STEPS_OUT 5
 #define STEPS_OUT_ALONG 2 // of them: what is not out by then goes to what is nearest
 
 // Out of the head's distance grid with room to spare: the way that the grid says is out on the whole, so that
@@ -74,7 +74,7 @@ static inline void out_of_body(global const float* body_distance, global const f
 {
 #ifdef BODY_GRID
     const float enough = 0.01f * info->body_corner.w; // voxels
-    const float flat = 0.1f * info->body_corner.w;    // a way over which the surface is a plane: the last that is needed
+    const float flat = 0.25f * info->body_corner.w; // a way over which the surface is a plane: the last that is needed
     Points way = *p;
     real left = (real)(2.0f * flat);
     for (int taken = 0; taken < STEPS_OUT; ++taken)

@@ -229,6 +229,17 @@ DistanceGrid compute_distance_grid(const Mesh& mesh, int resolution)
     return grid;
 }
 
+// Difference of the neighbours' values along each axis; at the border, the sample's own for the one that is not there.
+static glm::vec3 slope_at(const std::vector<float>& values, glm::ivec3 size, glm::ivec3 at, size_t sample)
+{
+    const size_t strides[3] = {1, size_t(size.x), size_t(size.x) * size_t(size.y)};
+    glm::vec3 slope;
+    for (int axis = 0; axis < 3; ++axis)
+        slope[axis] = values[at[axis] + 1 < size[axis] ? sample + strides[axis] : sample] -
+                      values[at[axis] > 0 ? sample - strides[axis] : sample];
+    return slope;
+}
+
 // Closing by a ball: the body is as far from a sample as that is from where the ball's centre may be, less its radius.
 // What is not in the grid cannot hold it: the ball shrinks to fit between the body and the border.
 static void fill_hollows(DistanceGrid& grid, float radius)
@@ -251,7 +262,6 @@ static void fill_hollows(DistanceGrid& grid, float radius)
               std::vector<float>(samples, INFINITY)};
     // Where the ball's centre may be: beyond a radius from the body. From a sample there, what it is too far goes to a
     // point of the border or, in a crease, short of it, which the samples beside it that are not there hear of.
-    const size_t strides[3] = {1, size_t(grid.size.x), size_t(grid.size.x) * size_t(grid.size.y)};
     sample = 0;
     for (int z = 0; z < grid.size.z; ++z)
         for (int y = 0; y < grid.size.y; ++y)
@@ -264,10 +274,7 @@ static void fill_hollows(DistanceGrid& grid, float radius)
                 take_point_if_nearer(work, sample, glm::vec3(at), glm::vec3(at));
                 if (beyond > 2.0f)
                     continue;
-                glm::vec3 slope;
-                for (int axis = 0; axis < 3; ++axis)
-                    slope[axis] = grid.distance[at[axis] + 1 < grid.size[axis] ? sample + strides[axis] : sample] -
-                                  grid.distance[at[axis] > 0 ? sample - strides[axis] : sample];
+                const glm::vec3 slope = slope_at(grid.distance, grid.size, at, sample);
                 const float steep = glm::length(slope);
                 const glm::vec3 border =
                     glm::vec3(at) - (steep > 0.5f * grid.voxel ? slope * (beyond / steep) : glm::vec3(0.0f));
@@ -325,19 +332,15 @@ static std::vector<glm::vec3> ways_out(const DistanceGrid& grid, float radius)
     for (int pass = 0; pass < 3; ++pass)
         for (int axis = 0; axis < 3; ++axis)
             blur_along(blurred, grid.size, axis, reach);
-    const size_t strides[3] = {1, size_t(grid.size.x), size_t(grid.size.x) * size_t(grid.size.y)};
     std::vector<glm::vec3> ways;
-    ways.reserve(blurred.size());
-    for (int z = 0; z < grid.size.z; ++z)
-        for (int y = 0; y < grid.size.y; ++y)
-            for (int x = 0; x < grid.size.x; ++x)
+    for (int z = 0; z <= grid.size.z / 2; ++z)
+        for (int y = 0; y <= grid.size.y / 2; ++y)
+            for (int x = 0; x <= grid.size.x / 2; ++x)
             {
-                const glm::ivec3 at(x, y, z);
-                const size_t i = ways.size();
-                glm::vec3 slope;
-                for (int axis = 0; axis < 3; ++axis)
-                    slope[axis] = blurred[at[axis] + 1 < grid.size[axis] ? i + strides[axis] : i] -
-                                  blurred[at[axis] > 0 ? i - strides[axis] : i];
+                const glm::ivec3 at = glm::min(glm::ivec3(x, y, z) * 2, grid.size - 1);
+                const size_t i =
+                    (size_t(at.z) * size_t(grid.size.y) + size_t(at.y)) * size_t(grid.size.x) + size_t(at.x);
+                const glm::vec3 slope = slope_at(blurred, grid.size, at, i);
                 const float length = glm::length(slope);
                 ways.push_back(length > 1e-4f * grid.voxel ? slope / length : glm::vec3(0.0f, 1.0f, 0.0f));
             }

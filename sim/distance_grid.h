@@ -16,7 +16,8 @@ struct DistanceGrid
     glm::vec3 corner{0.0f};      // where the first sample is
     float voxel = 0.0f;          // between neighbours
     std::vector<float> distance; // [z][y][x]
-    std::vector<glm::vec3> way;  // which way is out on the whole, unit length; only body_grid() tells
+    std::vector<glm::vec3> way;  // which way is out on the whole, unit length, at every second sample: size / 2 + 1
+                                 // along each axis; only body_grid() tells
 
     bool empty() const { return distance.empty(); }
 };

@@ -151,8 +151,12 @@ std::shared_ptr<const DistanceGrid> lumpy_body()
                 const glm::vec3 p = grid.corner + grid.voxel * glm::vec3(x, y, z) - glm::vec3(0.01f, 0.0f, 0.0f);
                 grid.distance.push_back(glm::length(p) - 0.09f -
                                         0.004f * std::sin(60.0f * p.x) * std::cos(50.0f * p.y));
-                grid.way.push_back(glm::normalize(p + glm::vec3(0.003f, 0.02f, 0.003f)));
             }
+    for (int z = 0; z <= grid.size.z / 2; ++z)
+        for (int y = 0; y <= grid.size.y / 2; ++y)
+            for (int x = 0; x <= grid.size.x / 2; ++x)
+                grid.way.push_back(glm::normalize(grid.corner + 2.0f * grid.voxel * glm::vec3(x, y, z) +
+                                                  glm::vec3(0.003f, 0.02f, 0.003f)));
     return std::make_shared<const DistanceGrid>(grid);
 }
 

@@ -157,11 +157,13 @@ Vec nearest_on_axis(const Capsule& collider, Vec p)
     return squared > 0.0 ? center + axis * std::clamp(glm::dot(p - center, axis) / squared, 0.0, 1.0) : center;
 }
 
-BodyCorners body_corners(Vec p, const StepInfo& info)
+BodyCorners body_corners(Vec p, const StepInfo& info, int stride)
 {
-    const int size[3] = {info.body_x, info.body_y, info.body_z};
+    const int all[3] = {info.body_x, info.body_y, info.body_z};
+    const int size[3] = {stride > 1 ? all[0] / stride + 1 : all[0], stride > 1 ? all[1] / stride + 1 : all[1],
+                         stride > 1 ? all[2] / stride + 1 : all[2]};
     const Vec local = xyz(info.head_row0) * p.x + xyz(info.head_row1) * p.y + xyz(info.head_row2) * p.z;
-    const Vec g = (local - xyz(info.body_corner)) / double(info.body_corner.w);
+    const Vec g = (local - xyz(info.body_corner)) / (stride * double(info.body_corner.w));
     Vec within = g;
     int cell[3];
     for (int axis = 0; axis < 3; ++axis)

@@ -53,7 +53,7 @@ struct BodyCorners
     } at[8];
     double away;
 };
-BodyCorners body_corners(Vec p, const StepInfo& info);
+BodyCorners body_corners(Vec p, const StepInfo& info, int stride = 1); // of every stride-th sample
 
 // What Solver makes of a grid.
 Body body_of(const DistanceGrid& grid);

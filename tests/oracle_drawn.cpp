@@ -190,7 +190,7 @@ Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info)
 {
     const double voxel = info.body_corner.w;
     Vec way(0.0);
-    for (int taken = 0; taken < 6; ++taken)
+    for (int taken = 0; taken < 5; ++taken)
     {
         const Plane plane = plane_at(body, p, info);
         const double within = room - plane.distance;
@@ -199,14 +199,14 @@ Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info)
         if (taken == 0)
         {
             Vec out(0.0);
-            for (const auto& corner : body_corners(p, info).at)
+            for (const auto& corner : body_corners(p, info, 2).at)
                 out += corner.weight * Vec(body.way[corner.sample]);
             way = glm::normalize(to_world(info, out));
         }
-        if (taken >= 4)
+        if (taken >= 3)
             way = plane.normal;
         p += way * (within / std::max(0.5, glm::dot(way, plane.normal)));
-        if (within <= 0.1 * voxel)
+        if (within <= 0.25 * voxel)
             break;
     }
     return p;

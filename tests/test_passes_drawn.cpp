@@ -122,7 +122,9 @@ TEST_P(DrawnPasses, NodesLieWhereTheTwinPutsThem)
     // nearly along its surface that the root of the rounding counts.
     EXPECT_LE(errors[errors.size() / 2], 2e-7);
     EXPECT_LE(errors[errors.size() * 99 / 100], 5e-6);
-    EXPECT_LE(errors[errors.size() * 999 / 1000], 1e-4);
+    // Out of the head's grid rounding may decide whether a last step is needed that is worth a fraction of a
+    // millimetre.
+    EXPECT_LE(errors[errors.size() * 999 / 1000], GetParam().body ? 3e-4 : 1e-4);
     EXPECT_LE(errors.back(), GetParam().bodies ? 2e-3 : 1e-6);
 }
 

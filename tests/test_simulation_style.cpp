@@ -1,6 +1,7 @@
 // What a change of the style does to hair that is alive: no slider is dead, none acts late, and a change that fails is
 // none.
 #include "sim/error.h"
+#include "sim/health.h"
 #include "sim/simulation.h"
 #include "tests/on_device.h"
 
@@ -56,11 +57,14 @@ void set_other(Hairstyle& style, const ParamInfo& info)
 
 TEST(Style, EverySliderThatActsOnTheHairActsInTheNextStep)
 {
-    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only the shaders read of a wave. There
-    // is one way yet to choose guides.
-    const std::set<std::string> elsewhere = {"head.mesh_scale",          "wave.normal_frequency",
-                                             "wave.normal_randomness",   "wave.binormal_frequency",
-                                             "wave.binormal_randomness", "interpolation.guides",
+    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
+    // the shaders read of a wave. There is one way yet to choose guides.
+    const std::set<std::string> elsewhere = {"head.mesh_scale",
+                                             "wave.normal_frequency",
+                                             "wave.normal_randomness",
+                                             "wave.binormal_frequency",
+                                             "wave.binormal_randomness",
+                                             "interpolation.guides",
                                              "head.contact"};
     Simulation simulation(test_device(), busy_style());
     simulation.settle(0.5);
@@ -147,6 +151,68 @@ TEST(Style, AChangeThatFailsLeavesEverythingAsItWas)
         EXPECT_EQ(tried.assets().scalp.positions.size(), untouched.assets().scalp.positions.size());
         EXPECT_TRUE(after_a_step(tried) == after_a_step(untouched)) << wrong;
     }
+}
+
+TEST(Style, TheHeadsMeshOrItsSpheresStandForIt)
+{
+    const auto placed = [](std::initializer_list<const char*> sets)
+    {
+        Hairstyle style;
+        assign(style, "interpolation.strands=60");
+        for (const char* set : sets)
+            assign(style, set);
+        style.host.colliders = {{{1.0f, 0.0f, 0.0f}, 0.1f, false, glm::vec3(1.0f, 0.5f, 0.0f)}};
+        const Simulation simulation(test_device(), style);
+        return std::pair(simulation.solver().placed_colliders().size(), simulation.solver().body());
+    };
+    const auto [with_grid, body] = placed({"head.scale=2", "head.offset=[0.1, 0, 0]", "head.mesh_scale=0.5"});
+    EXPECT_EQ(with_grid, 1u) << "the style's own only";
+    ASSERT_TRUE(body.grid);
+    EXPECT_EQ(body.scale, 1.0f);
+    EXPECT_EQ(body.offset, glm::vec3(0.2f, 0.0f, 0.0f));
+    EXPECT_LT(distance_to(body, {0.2f, 0.0f, 0.0f}), -0.05f);
+    const auto [with_spheres, none] = placed({"head.contact=spheres"});
+    EXPECT_EQ(with_spheres, 36u);
+    EXPECT_FALSE(none.grid);
+    EXPECT_EQ(placed({"head.mesh="}).first, 36u) << "no mesh to keep out of";
+    EXPECT_EQ(placed({"head.mesh=", "head.spheres="}).first, 2u);
+
+    // Changed while it lives.
+    Simulation simulation(test_device(), Hairstyle{});
+    Hairstyle style;
+    assign(style, "head.contact=spheres");
+    simulation.set_style(style);
+    EXPECT_FALSE(simulation.solver().body().grid);
+    EXPECT_EQ(simulation.solver().placed_colliders().size(), 35u);
+    simulation.step({});
+    simulation.set_style(Hairstyle{});
+    EXPECT_TRUE(simulation.solver().body().grid);
+    simulation.step({});
+    EXPECT_EQ(simulation.solver().info().body_x, simulation.solver().body().grid->size.x);
+}
+
+TEST(Style, GuidesAndDrawnStrandsStayOutOfTheHeadWhileItMoves)
+{
+    Hairstyle style;
+    assign(style, "strand.length=0.3");
+    Simulation simulation(test_device(), style);
+    Health worst;
+    for (int i = 1; i <= 60; ++i)
+    {
+        Pose hand;
+        hand.origin = {0.1 * std::sin(0.2 * i), 0.0, 0.0};
+        hand.turn = glm::angleAxis(0.7 * std::sin(0.15 * i), glm::dvec3(0, 1, 0));
+        simulation.step(hand);
+        if (i % 5)
+            continue;
+        simulation.solver().draw();
+        const Health health = measure_health(simulation.solver(), style.params, true);
+        worst.penetration_max = std::max(worst.penetration_max, health.penetration_max);
+        worst.drawn_penetration_max = std::max(worst.drawn_penetration_max, health.drawn_penetration_max);
+        EXPECT_TRUE(health.finite);
+    }
+    EXPECT_LE(worst.penetration_max, 3e-4);
+    EXPECT_LE(worst.drawn_penetration_max, 1e-4);
 }
 
 TEST(Style, CollidersComeGoAndMoveWithTheirOwner)
