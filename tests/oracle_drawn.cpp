@@ -184,6 +184,14 @@ Vec out_of_union(Vec p, const std::vector<Capsule>& colliders, double room)
     return p + t * direction;
 }
 
+static Vec way_out(const Body& body, Vec p, const StepInfo& info)
+{
+    Vec out(0.0);
+    for (const auto& corner : body_corners(p, info, 2).at)
+        out += corner.weight * Vec(body.way[corner.sample]);
+    return glm::normalize(to_world(info, out));
+}
+
 // The way that the grid says, trilinear, as far as the surface there says; what that does not bring out goes along the
 // normal.
 Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info)
@@ -197,12 +205,7 @@ Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info)
         if (within <= 0.01 * voxel)
             break;
         if (taken == 0)
-        {
-            Vec out(0.0);
-            for (const auto& corner : body_corners(p, info, 2).at)
-                out += corner.weight * Vec(body.way[corner.sample]);
-            way = glm::normalize(to_world(info, out));
-        }
+            way = way_out(body, p, info);
         if (taken >= 3)
             way = plane.normal;
         p += way * (within / std::max(0.5, glm::dot(way, plane.normal)));
@@ -216,8 +219,30 @@ static Vec out_of_all(Vec p, const std::vector<Capsule>& colliders, const Body& 
 {
     if (body.distance.empty())
         return out_of_union(p, colliders, room);
-    const Vec free = out_of_body(p, body, room, info), there = out_of_union(free, colliders, room);
-    return free == there ? there : out_of_union(out_of_body(there, body, room, info), colliders, room);
+    const Vec there = out_of_body(p, body, room, info);
+    Vec out = out_of_union(there, colliders, room);
+    if (out == there)
+        return out;
+    const Vec way = glm::normalize(way_out(body, out, info) + glm::normalize(out - there));
+    for (int taken = 0; taken < 8; ++taken)
+    {
+        const Plane plane = plane_at(body, out, info);
+        const double within = room - plane.distance;
+        if (within <= 0.01 * info.body_corner.w)
+            return out;
+        double go = within / std::max(0.5, glm::dot(way, plane.normal));
+        for (const Capsule& collider : colliders)
+        {
+            // Out of the sphere that the collider is to the point.
+            const Vec from = out - nearest_on_axis(collider, out + go * way);
+            const double radius = collider.center.w + room;
+            if (glm::length(from + go * way) < radius)
+                go = -glm::dot(from, way) +
+                     std::sqrt(std::pow(glm::dot(from, way), 2.0) + radius * radius - glm::dot(from, from));
+        }
+        out += go * way;
+    }
+    return out_of_body(out, body, room, info);
 }
 
 static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, const HairParams& params,
