@@ -170,7 +170,8 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
         const Vec root = vector_of(groom.root_position, s, 0, 1);
-        const Vec direction = glm::normalize(vector_of(groom.root_direction, s, 0, 1));
+        const Vec told = vector_of(groom.root_direction, s, 0, 1);
+        const Vec direction = glm::length(told) > 1e-6 ? glm::normalize(told) : Vec(0.0, 1.0, 0.0); // any will do
         const double rest = std::max(1e-9, double(groom.segment_length[size_t(s)]) * params.strand_spacing);
         const double stiffness = std::min(stiffness_over_mass(params, nodes - 2, rest), shape.bend_most);
         shape.turning_rate = std::max(shape.turning_rate, std::sqrt(stiffness * share));

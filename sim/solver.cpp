@@ -272,8 +272,8 @@ void Solver::simulate_direct(const StepInfo& info)
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
-    // And stiffer than this, it does not bend.
-    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f)
+    // And stiffer than this, it does not bend, but for a body that it meets.
+    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f && colliders_.empty())
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
     launch_strands("simulate_direct",
                    fmt::format("{}{}{}{}{}{}", bending ? "-D BENDING " : "",
