@@ -11,6 +11,7 @@
 // are build options.
 #include "bodies.h"
 #include "direct.h"
+#include "faults.h"
 #include "forces.h"
 
 
@@ -202,12 +203,14 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             predicted[i] = move[i];
         real kept = (real)(1.0f);
         whole open = (whole)(-1);
+        real residual = (real)(0.0f);
         for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
         {
             keep_lengths_direct(a, move, pull, rest, (real)(hg), tip_mass, open);
-            open &= length_residual(a, move, rest) >= LENGTH_TOLERANCE;
+            residual = length_residual(a, move, rest);
+            open &= residual >= LENGTH_TOLERANCE;
         }
-        const whole failed = open & (length_residual(a, move, rest) >= 4.0f * LENGTH_TOLERANCE);
+        const whole failed = open & (residual >= 4.0f * LENGTH_TOLERANCE);
         const int any_rescued = any_lane(failed);
         if (any_rescued)
             kept = rescue(x, predicted, move, pull, rest, tip_mass, failed, &bad);
@@ -258,18 +261,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     if (strand % LANES == 0)
         pace_next[block] = 1 + level;
 
-    int position_lanes[WIDTH], motion_lanes[WIDTH], bad_lanes[WIDTH];
-    LANES_STORE(bad_position, position_lanes);
-    LANES_STORE(bad_motion, motion_lanes);
-    LANES_STORE(bad, bad_lanes);
-    for (int lane = 0; lane < WIDTH; ++lane)
-        if (strand + lane < info->guides && (position_lanes[lane] || motion_lanes[lane] || bad_lanes[lane]))
-        {
-            atomic_inc(&resets[strand + lane]);
-            faults[strand + lane] = position_lanes[lane] ? FAULT_POSITION
-                                    : motion_lanes[lane] ? FAULT_VELOCITY
-                                                         : FAULT_FORCES;
-        }
+    note_faults(resets, faults, strand, info->guides, bad_position, bad_motion, came_bad | bad);
 
 #ifdef DENSITY
     if (info->last_substep)

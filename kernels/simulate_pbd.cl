@@ -6,6 +6,7 @@
 //
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION and DENSITY are build options.
 #include "contact.h"
+#include "faults.h"
 #include "forces.h"
 #include "lanes.h"
 #include "pbd.h"
@@ -161,18 +162,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
                     velocity + first + (i * 3 + 2) * LANES);
     }
 
-    int position_lanes[WIDTH], motion_lanes[WIDTH], bad_lanes[WIDTH];
-    LANES_STORE(bad_position, position_lanes);
-    LANES_STORE(bad_motion, motion_lanes);
-    LANES_STORE(bad, bad_lanes);
-    for (int lane = 0; lane < WIDTH; ++lane)
-        if (bad_lanes[lane] && strand + lane < info->guides)
-        {
-            atomic_inc(&resets[strand + lane]);
-            faults[strand + lane] = position_lanes[lane] ? FAULT_POSITION
-                                    : motion_lanes[lane] ? FAULT_VELOCITY
-                                                         : FAULT_FORCES;
-        }
+    note_faults(resets, faults, strand, info->guides, bad_position, bad_motion, bad);
 
 #ifdef DENSITY
     if (info->last_substep)

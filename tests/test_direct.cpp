@@ -1,4 +1,5 @@
 // The direct solver against references that it did not make (tests/reference/README.md): one strand on its own.
+#include "app/measure/strand.h"
 #include "sim/lab.h"
 #include "sim/models/reference.h"
 #include "tests/rig.h"
@@ -28,14 +29,7 @@ LabRun run(const study::Scene& scene, double seconds, double fps = 60.0, int sub
     params.forces_drag = float(scene.drag);
     params.solver_substeps = substeps;
     params.solver_courant = courant;
-    LabStrand strand;
-    strand.nodes = scene.links + 1;
-    strand.length = scene.length;
-    strand.tip_mass = scene.tip_mass;
-    strand.angle = std::atan2(scene.direction.x, -scene.direction.y);
-    if (scene.gamma > 0.0)
-        strand.gamma = scene.gamma;
-    return run_lab(test_device(), params, strand, scene.root, seconds, fps);
+    return run_lab(test_device(), params, strand_of(scene), scene.root, seconds, fps);
 }
 
 study::Difference error_of(const std::string& name, int substeps, float courant, LabRun* result = nullptr)

@@ -1,5 +1,6 @@
 #include "app/stress/stress.h"
 
+#include "app/json.h"
 #include "app/stress/cases.h"
 #include "sim/error.h"
 
@@ -38,27 +39,12 @@ static std::vector<const stress::Case*> chosen(const std::vector<std::string>& o
     return all;
 }
 
-static std::string json_text(const std::string& text)
-{
-    std::string out = "\"";
-    for (const char c : text)
-        if (c == '"' || c == '\\')
-            out += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20)
-            out += fmt::format("\\u{:04x}", int(c));
-        else
-            out += c;
-    return out + '"';
-}
-
 static std::string csv_text(std::string text)
 {
     for (size_t at = 0; (at = text.find('"', at)) != text.npos; at += 2)
         text.insert(at, 1, '"');
     return '"' + text + '"';
 }
-
-static std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null"; }
 
 static void write_tables(const std::filesystem::path& folder, const std::vector<Row>& rows, const std::string& device,
                          int seed)
