@@ -126,24 +126,22 @@ static bool same_hair(const Hairstyle& a, const Hairstyle& b)
 
 void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
-    bool meshes = reload, regrow = reload;
+    const bool meshes =
+        reload || std::ranges::any_of(param_table(), [&](const ParamInfo& info)
+                                      { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
+    Assets fresh = meshes ? load_assets(authored) : Assets{}; // may throw; nothing has changed yet
     Quality quality = quality_;
     Hairstyle style = authored;
     if (reload || !same_hair(authored, authored_))
-        style = meet_tolerance(device_, authored, reload ? load_assets(authored).scalp : assets_.scalp, quality);
+        style = meet_tolerance(device_, authored, meshes ? fresh.scalp : assets_.scalp, quality);
     else
         for (const char* kept :
              {"solver.courant", "solver.substeps", "strand.nodes", "grid.resolution", "smoothing.subdivisions"})
             if (!quality_.rungs.empty())
                 copy_value(style_, style, *find_param(kept));
+    bool regrow = reload;
     for (const ParamInfo& info : param_table())
-    {
-        if (info.effect == Effect::LIVE || info.effect == Effect::VIEW || same_value(style, style_, info))
-            continue;
-        regrow = true;
-        meshes |= info.kind == Kind::TEXT;
-    }
-    Assets fresh = meshes ? load_assets(style) : Assets{}; // may throw; nothing has changed yet
+        regrow |= info.effect != Effect::LIVE && info.effect != Effect::VIEW && !same_value(style, style_, info);
     const bool waves = waves_are_shape(style.params);
     regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
     bool refall = false;
