@@ -298,8 +298,11 @@ void Editor::handle_mouse(const SDL_Event& event)
             pan(camera_, event.motion.xrel, event.motion.yrel, view_height_);
         else if (held_.what == Grab::COLLIDER)
         {
-            style_.host.colliders.at(held_.collider).center =
-                dragged_collider(held_, *simulation_, camera_, x, y, view_width_, view_height_);
+            Collider& collider = style_.host.colliders.at(held_.collider);
+            const glm::vec3 center = dragged_collider(held_, *simulation_, camera_, x, y, view_width_, view_height_);
+            if (collider.to)
+                collider.to = glm::clamp(*collider.to + center - collider.center, -100.0f, 100.0f);
+            collider.center = center;
             apply();
         }
         else if (held_.what != Grab::NONE)

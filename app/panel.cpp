@@ -95,13 +95,16 @@ static bool draw_colliders(std::vector<Collider>& colliders)
     {
         Collider& c = colliders[i];
         ImGui::PushID(int(i));
-        ImGui::Text("sphere %zu", i + 1);
+        ImGui::Text("%s %zu", c.to ? "capsule" : "sphere", i + 1);
         ImGui::SameLine();
         changed |= ImGui::Checkbox("on the head", &c.on_head);
         ImGui::SameLine();
         const bool remove = ImGui::SmallButton("remove");
         changed |=
             ImGui::DragFloat3("center", &c.center.x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
+        if (c.to)
+            changed |=
+                ImGui::DragFloat3("to", &c.to->x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
         changed |= ImGui::SliderFloat("radius", &c.radius, 0.005f, 1.0f, "%.3f m",
                                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
         ImGui::PopID();
@@ -111,9 +114,16 @@ static bool draw_colliders(std::vector<Collider>& colliders)
             return true;
         }
     }
-    if (colliders.size() < MOST_COLLIDERS / 2 && ImGui::Button("add a sphere"))
+    if (colliders.size() >= MOST_COLLIDERS / 2)
+        return changed;
+    const bool sphere = ImGui::Button("add a sphere");
+    ImGui::SameLine();
+    const bool capsule = ImGui::Button("add a capsule");
+    if (sphere || capsule)
     {
-        colliders.push_back({glm::vec3(0.2f, 0.0f, 0.1f), 0.05f, false});
+        colliders.push_back({glm::vec3(0.2f, 0.0f, 0.1f), 0.05f, false, {}});
+        if (capsule)
+            colliders.back().to = glm::vec3(0.2f, -0.2f, 0.1f);
         changed = true;
     }
     return changed;

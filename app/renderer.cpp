@@ -252,17 +252,20 @@ void Renderer::draw_solids(const FrameInput& frame)
     glUniform4f(program.uniform("albedo"), skin.x, skin.y, skin.z, params.head_scalp_tint);
     glUniform4f(program.uniform("place"), 0.0f, 0.0f, 0.0f, params.head_scale);
     glUniform1i(program.uniform("on_head"), 1);
+    glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
     glBindVertexArray(mesh_array_);
     glDrawElements(GL_TRIANGLES, mesh_index_count_, GL_UNSIGNED_INT, nullptr);
 
     glUniform4f(program.uniform("albedo"), 0.30f, 0.34f, 0.40f, 0.0f);
     glUniform1i(program.uniform("on_head"), 0);
     glBindVertexArray(sphere_array_);
-    // The head's own spheres come first and stand for its mesh; the style's obstacles after them are shown.
-    const std::vector<float4> placed = frame.simulation->solver().placed_colliders();
-    for (size_t i = frame.simulation->assets().spheres.size(); i < placed.size(); ++i)
+    // The head's own colliders come first and stand for its mesh; the style's obstacles after them are shown.
+    const std::vector<Capsule> placed = frame.simulation->solver().placed_colliders();
+    for (size_t i = placed.size() - frame.simulation->style().host.colliders.size(); i < placed.size(); ++i)
     {
-        glUniform4f(program.uniform("place"), placed[i].x, placed[i].y, placed[i].z, placed[i].w);
+        const float4 c = placed[i].center, axis = placed[i].axis;
+        glUniform4f(program.uniform("place"), c.x, c.y, c.z, c.w);
+        glUniform3f(program.uniform("stretch"), axis.x, axis.y, axis.z);
         glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
     }
 }

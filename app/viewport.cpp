@@ -40,6 +40,52 @@ std::optional<double> hit(const Ray& ray, glm::dvec3 center, double radius)
     return -b - std::sqrt(d);
 }
 
+// Where the ray first meets what `distance` measures how far it is from, or less (Hart. Sphere tracing. 1996).
+template <typename Distance> static std::optional<double> traced(const Ray& ray, double near_enough, Distance distance)
+{
+    double t = 0.0;
+    for (int i = 0; i < 400 && t < 1e4; ++i)
+    {
+        const double d = distance(ray.origin + ray.direction * t);
+        if (d < near_enough)
+            return t > 0.0 ? std::optional(t) : std::nullopt; // from within one looks through
+        t += d;
+    }
+    return std::nullopt;
+}
+
+static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, const Pose& head)
+{
+    if (!body.grid)
+        return std::nullopt;
+    const DistanceGrid& grid = *body.grid;
+    const double voxel = double(grid.voxel) * body.scale;
+    const glm::dvec3 low = glm::dvec3(grid.corner) * double(body.scale) + glm::dvec3(body.offset);
+    const glm::dvec3 high = low + voxel * glm::dvec3(grid.size - 1);
+    return traced(ray, 0.05 * voxel,
+                  [&](glm::dvec3 world)
+                  {
+                      const glm::dvec3 p = glm::conjugate(head.turn) * (world - head.origin);
+                      // Outside of the grid its distances are too long to go by.
+                      const double outside = glm::distance(p, glm::clamp(p, low, high));
+                      return outside > 0.0 ? outside + 0.5 * voxel : double(distance_to(body, glm::vec3(p)));
+                  });
+}
+
+static std::optional<double> hit_collider(const Ray& ray, const Capsule& c, glm::dvec3 origin)
+{
+    const glm::dvec3 center = origin + glm::dvec3(c.center.x, c.center.y, c.center.z);
+    const glm::dvec3 axis(c.axis.x, c.axis.y, c.axis.z);
+    if (c.axis.w == 0.0f)
+        return hit(ray, center, c.center.w);
+    return traced(ray, 1e-3 * c.center.w,
+                  [&](glm::dvec3 p)
+                  {
+                      const double share = std::clamp(glm::dot(p - center, axis) * double(c.axis.w), 0.0, 1.0);
+                      return glm::distance(p, center + axis * share) - c.center.w;
+                  });
+}
+
 glm::dvec3 on_facing_plane(const Ray& ray, const Camera& camera, glm::dvec3 point)
 {
     const glm::dvec3 forward = axes_of(camera).forward;
@@ -85,20 +131,25 @@ Grab grab(const Simulation& simulation, const Camera& camera, double x, double y
     held.y = y;
     const Ray ray = ray_through(camera, x, y, width, height);
     const glm::dvec3 origin = simulation.solver().head().origin;
-    const std::vector<float4> placed = simulation.solver().placed_colliders();
-    const size_t of_head = simulation.assets().spheres.size();
+    const std::vector<Capsule> placed = simulation.solver().placed_colliders();
+    const size_t of_head = placed.size() - simulation.style().host.colliders.size();
     double nearest = INFINITY;
-    for (size_t i = 0; i < placed.size(); ++i)
+    const auto take = [&](std::optional<double> at, bool of_style, size_t collider, glm::dvec3 from)
     {
-        const glm::dvec3 center = origin + glm::dvec3(placed[i].x, placed[i].y, placed[i].z);
-        const std::optional<double> at = hit(ray, center, placed[i].w);
         if (!at || *at >= nearest)
-            continue;
+            return;
         nearest = *at;
         held.start = ray.origin + ray.direction * *at;
-        held.what = i >= of_head ? Grab::COLLIDER : turn ? Grab::TURN_HEAD : Grab::MOVE_HEAD;
-        held.collider = i - of_head; // meaningful for colliders only
-        held.origin_before = i >= of_head ? center : simulation.hand().origin;
+        held.what = of_style ? Grab::COLLIDER : turn ? Grab::TURN_HEAD : Grab::MOVE_HEAD;
+        held.collider = collider;
+        held.origin_before = from;
+    };
+    take(hit_body(ray, simulation.solver().body(), simulation.solver().head()), false, 0, simulation.hand().origin);
+    for (size_t i = 0; i < placed.size(); ++i)
+    {
+        const float4 c = placed[i].center;
+        take(hit_collider(ray, placed[i], origin), i >= of_head, i - of_head,
+             i >= of_head ? origin + glm::dvec3(c.x, c.y, c.z) : simulation.hand().origin);
     }
     held.turn_before = simulation.hand().turn;
     return held;

@@ -5,7 +5,7 @@
 #ifndef COIF_BODIES_H
 #define COIF_BODIES_H
 #include "contact.h"
-#include "drawn_lanes.h"
+#include "distance_grid.h"
 
 // The head at one moment: rows of its rotation, and its origin in their w.
 typedef struct HeadPose
@@ -28,38 +28,43 @@ static inline Points out_of_head(HeadPose h, Points p)
 
 static inline Points into_head(HeadPose h, Points p)
 {
-    const real x = p.x - h.row0.w, y = p.y - h.row1.w, z = p.z - h.row2.w;
-    return points(h.row0.x * x + h.row1.x * y + h.row2.x * z, h.row0.y * x + h.row1.y * y + h.row2.y * z,
-                  h.row0.z * x + h.row1.z * y + h.row2.z * z);
+    return turn_back_by(h.row0, h.row1, h.row2, points(p.x - h.row0.w, p.y - h.row1.w, p.z - h.row2.w));
 }
 
 // What hair near some bodies needs to know of them. `near` numbers those in reach, the head's own first.
 typedef struct Bodies
 {
-    constant float4*
-        all; // (centre, radius) and (axis of a capsule, 0), in the head's frame or against the path's origin
+    constant Capsule* all; // in the head's frame or against the path's origin
     short near[MOST_COLLIDERS];
     int near_head, near_count;
+#ifdef BODY_GRID
+    global const float* grid; // distances to the head's mesh, distance_grid.h
+    constant StepInfo* info;
+#endif
 } Bodies;
 
-// Distance of p to a sphere or capsule, and the unit vector away from it. At its very middle: upwards.
-static inline real capsule_distance(constant float4* body, Points p, Points* away)
+static inline int any_near(const Bodies* bodies)
 {
-    const float4 from = body[0], axis = body[1];
-    const float squared_axis = dot(axis.xyz, axis.xyz);
-    Points d = points(p.x - from.x, p.y - from.y, p.z - from.z);
-    if (squared_axis > 0.0f)
-    {
-        const real share = (d.x * axis.x + d.y * axis.y + d.z * axis.z) * (1.0f / squared_axis);
-        const real at = clamp(share, (real)(0.0f), (real)(1.0f)); // Ericson 2005, section 5.1.2
-        d = points(d.x - at * axis.x, d.y - at * axis.y, d.z - at * axis.z);
-    }
+#ifdef BODY_GRID
+    return 1; // hair grows on it
+#else
+    return bodies->near_count > 0;
+#endif
+}
+
+// Distance of p to a sphere or capsule, and the unit vector away from it. At its very middle: upwards.
+static inline real capsule_distance(constant Capsule* body, Points p, Points* away)
+{
+    const float radius = body->center.w;
+    Points on_axis;
+    nearest_on_axis(*body, p.x, p.y, p.z, &on_axis.x, &on_axis.y, &on_axis.z);
+    const Points d = points(p.x - on_axis.x, p.y - on_axis.y, p.z - on_axis.z);
     const real squared = dot_lanes(d, d);
-    const float least_squared = 1e-12f * from.w * from.w;
+    const float least_squared = 1e-12f * radius * radius;
     const real inverse = INVERSE_SQRT(fmax(squared, (real)(least_squared)));
     *away = select_points(points((real)(0.0f), (real)(1.0f), (real)(0.0f)),
                           points(d.x * inverse, d.y * inverse, d.z * inverse), squared > least_squared);
-    return squared * inverse - from.w;
+    return squared * inverse - radius;
 }
 
 static inline void nearer(real distance_to, Points away, real* nearest, Points* normal)
@@ -71,27 +76,35 @@ static inline void nearer(real distance_to, Points away, real* nearest, Points* 
 
 // Distance of p to the nearest body (m; negative inside, 1e9 where none is near), the unit vector away from it, and
 // whether it is a part of the head.
-static inline real body_distance(const Bodies* bodies, HeadPose head, Points p, Points* normal, whole* on_head)
+static inline real nearest_body(const Bodies* bodies, HeadPose head, Points p, Points* normal, whole* on_head)
 {
     real nearest = (real)(1e9f);
     Points out = points((real)(0.0f), (real)(1.0f), (real)(0.0f)), away;
-    if (bodies->near_head > 0)
+#ifdef BODY_GRID
+    const int of_the_head = 1;
+#else
+    const int of_the_head = bodies->near_head > 0;
+#endif
+    if (of_the_head)
     {
         const Points local_p = into_head(head, p);
+#ifdef BODY_GRID
+        nearest = head_distance(bodies->grid, local_p, &out, bodies->info);
+#endif
         for (int i = 0; i < bodies->near_head; ++i)
-            nearer(capsule_distance(bodies->all + 2 * bodies->near[i], local_p, &away), away, &nearest, &out);
+            nearer(capsule_distance(bodies->all + bodies->near[i], local_p, &away), away, &nearest, &out);
         out = turn_by(head.row0, head.row1, head.row2, out);
     }
     const real of_head = nearest;
     for (int i = bodies->near_head; i < bodies->near_count; ++i)
-        nearer(capsule_distance(bodies->all + 2 * bodies->near[i], p, &away), away, &nearest, &out);
+        nearer(capsule_distance(bodies->all + bodies->near[i], p, &away), away, &nearest, &out);
     *normal = out;
     *on_head = nearest == of_head;
     return nearest;
 }
 
 // Finds the bodies that strands with these roots can reach before the step is over.
-static inline void bodies_near(Bodies* bodies, constant float4* all, constant StepInfo* info, HeadPose begin,
+static inline void bodies_near(Bodies* bodies, constant Capsule* all, constant StepInfo* info, HeadPose begin,
                                HeadPose end, Points root, real reach)
 {
     bodies->all = all;
@@ -103,7 +116,7 @@ static inline void bodies_near(Bodies* bodies, constant float4* all, constant St
     {
         const int on_head = c < info->head_colliders;
         Points away;
-        const real gap = capsule_distance(all + 2 * c, on_head ? in_head : root, &away);
+        const real gap = capsule_distance(all + c, on_head ? in_head : root, &away);
         if (any_lane(gap < (on_head ? reach : with_motion)))
             bodies->near[bodies->near_count++] = (short)c;
         if (on_head)
@@ -120,7 +133,7 @@ static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose no
     Points n;
     whole on_head;
     const Points at = points(x.x + move->x, x.y + move->y, x.z + move->z);
-    const real gap = fmin(body_distance(bodies, now, at, &n, &on_head) + inside, (real)(0.0f));
+    const real gap = fmin(nearest_body(bodies, now, at, &n, &on_head) + inside, (real)(0.0f));
     if (!any_lane(gap < 0.0f))
         return;
     Points carried = out_of_head(now, into_head(last, x)); // where x would be, were it fixed to the head
@@ -158,7 +171,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
         {
             Points n;
             whole on_head;
-            const real gap = body_distance(bodies, head, at, &n, &on_head) + inside[k];
+            const real gap = nearest_body(bodies, head, at, &n, &on_head) + inside[k];
             const whole in = gap < 0.0f;
             if (!any_lane(in))
                 break;
@@ -172,28 +185,33 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             const whole not_x = fabs(n.x) > 0.6f;
             const Points side = select_points(points((real)(0.0f), n.z, -n.y), points(-n.z, (real)(0.0f), n.x), not_x);
             t = select_points(t, side, steep);
-            const real flat = sqrt(fmax(rest * rest - height * height, (real)(0.0f))) *
-                              INVERSE_SQRT(fmax(dot_lanes(t, t), (real)(1e-30f)));
+            const real flat =
+                sqrt((rest - height) * (rest + height)) * INVERSE_SQRT(fmax(dot_lanes(t, t), (real)(1e-30f)));
             const Points moved =
                 points(flat * t.x - height * n.x, flat * t.y - height * n.y, flat * t.z - height * n.z);
             d = select_points(d, moved, in);
-            // In a crease one body leads into another, to and fro: where both their planes and the length meet.
+            // In a crease one body leads into another, to and fro: where both their planes and the length meet, which
+            // are the last plane's foot, as far along the rest of this normal as it takes, and the edge.
             const real offset = along - gap;
-            if (any_lane(in & was_in))
+            const whole pinched = in & was_in & (dot_lanes(last_n, d) < last_offset);
+            if (any_lane(pinched))
             {
-                const real both = dot_lanes(last_n, n), spread = 1.0f - both * both;
-                const real per_spread = 1.0f / fmax(spread, (real)(1e-3f));
-                const real on_last = (last_offset - both * offset) * per_spread,
-                           on_this = (offset - both * last_offset) * per_spread;
-                const Points base = points(on_last * last_n.x + on_this * n.x, on_last * last_n.y + on_this * n.y,
-                                           on_last * last_n.z + on_this * n.z);
-                const Points edge = points(last_n.y * n.z - last_n.z * n.y, last_n.z * n.x - last_n.x * n.z,
-                                           last_n.x * n.y - last_n.y * n.x);
-                const real left = rest * rest - dot_lanes(base, base);
-                real way = sqrt(fmax(left, (real)(0.0f)) * per_spread);
+                const real both = dot_lanes(last_n, n);
+                Points across = points(n.x - both * last_n.x, n.y - both * last_n.y, n.z - both * last_n.z);
+                const real spread = dot_lanes(across, across), shorten = INVERSE_SQRT(fmax(spread, (real)(1e-3f)));
+                across = points(shorten * across.x, shorten * across.y, shorten * across.z);
+                const real further = (offset - both * last_offset) * shorten;
+                const Points edge =
+                    points(last_n.y * across.z - last_n.z * across.y, last_n.z * across.x - last_n.x * across.z,
+                           last_n.x * across.y - last_n.y * across.x);
+                const real left = rest * rest - last_offset * last_offset - further * further;
+                real way = sqrt(fmax(left, (real)(0.0f)));
                 way = select(way, -way, dot_lanes(edge, d) < 0.0f);
-                d = select_points(d, points(base.x + way * edge.x, base.y + way * edge.y, base.z + way * edge.z),
-                                  in & was_in & (spread > 1e-3f) & (left > 0.0f));
+                d = select_points(d,
+                                  points(last_offset * last_n.x + further * across.x + way * edge.x,
+                                         last_offset * last_n.y + further * across.y + way * edge.y,
+                                         last_offset * last_n.z + further * across.z + way * edge.z),
+                                  pinched & (spread > 1e-3f) & (left > 0.0f));
             }
             last_n = n;
             last_offset = offset;

@@ -5,22 +5,32 @@
 #include "contact.h"
 #include "drawn_lanes.h"
 
-// Where the ray p + t direction, now at t, is inside the sphere: the t at which it leaves it. Elsewhere t.
-static inline real leave_sphere(float4 sphere, Points p, Points direction, real room, real t)
+// From what of a collider's axis is nearest to `at`, to p.
+static inline Points from_axis(Capsule collider, Points at, Points p)
 {
-    const Points out = points(p.x - sphere.x, p.y - sphere.y, p.z - sphere.z);
-    const real radius = sphere.w + room, b = dot_lanes(out, direction);
+    real cx, cy, cz;
+    nearest_on_axis(collider, at.x, at.y, at.z, &cx, &cy, &cz);
+    return points(p.x - cx, p.y - cy, p.z - cz);
+}
+
+// Where the ray p + t direction, now at t, is inside the sphere that the collider is to its point `at`: the t at which
+// it leaves it. Elsewhere t. The sphere lies within the collider, so a capsule is left in a few rounds, and never by
+// more than it takes.
+static inline real leave(Capsule collider, Points p, Points direction, Points at, real room, real t)
+{
+    const Points out = from_axis(collider, at, p);
+    const real radius = collider.center.w + room, b = dot_lanes(out, direction);
     const real discriminant = b * b - dot_lanes(out, out) + radius * radius;
     const real half_chord = sqrt(fmax(discriminant, (real)(0.0f)));
     return select(t, half_chord - b, (discriminant > 0.0f) & (-b - half_chord <= t) & (half_chord - b > t));
 }
 
-// Out of the union of all spheres with `room` to spare: along the mean of the ways out of the spheres that hold the
-// point, each weighed by the square of its depth, as far as it takes to leave every sphere. So the way out turns
-// smoothly from node to node where spheres overlap; pushing out of one sphere at a time would go to and fro there, and
-// the deepest one alone would put neighbours on different sides of a crease. `which` numbers the spheres that matter.
+// Out of the union of all colliders with `room` to spare: along the mean of the ways out of those that hold the point,
+// each weighed by the square of its depth, as far as it takes to leave every one. So the way out turns smoothly from
+// node to node where they overlap; pushing out of one at a time would go to and fro there, and the deepest one alone
+// would put neighbours on different sides of a crease. `which` numbers the colliders that matter.
 // Returns how far each point has moved.
-static inline real out_of(constant float4* spheres, const short* which, int count, Points* p, real room)
+static inline real out_of(constant Capsule* colliders, const short* which, int count, Points* p, real room)
 {
     real t = (real)(0.0f);
     Points way = points(t, t, t);
@@ -29,9 +39,8 @@ static inline real out_of(constant float4* spheres, const short* which, int coun
     int touched_count = 0;
     for (int c = 0; c < count; ++c)
     {
-        const float4 sphere = spheres[which[c]];
-        const Points out = points(p->x - sphere.x, p->y - sphere.y, p->z - sphere.z);
-        const real radius = sphere.w + room, squared = dot_lanes(out, out);
+        const Points out = from_axis(colliders[which[c]], *p, *p);
+        const real radius = colliders[which[c]].center.w + room, squared = dot_lanes(out, out);
         if (!any_lane(squared < radius * radius))
             continue;
         touched[touched_count++] = which[c];
@@ -57,7 +66,7 @@ static inline real out_of(constant float4* spheres, const short* which, int coun
     {
         real further = t;
         for (int c = 0; c < touched_count; ++c)
-            further = fmax(further, leave_sphere(spheres[touched[c]], *p, direction, room, t));
+            further = fmax(further, leave(colliders[touched[c]], *p, direction, at, room, t));
         further = select(t, further, inside);
         if (!any_lane(further > t))
             break;
@@ -66,9 +75,8 @@ static inline real out_of(constant float4* spheres, const short* which, int coun
         touched_count = 0;
         for (int c = 0; c < count; ++c)
         {
-            const float4 sphere = spheres[which[c]];
-            const Points out = points(at.x - sphere.x, at.y - sphere.y, at.z - sphere.z);
-            const real radius = sphere.w + room;
+            const Points out = from_axis(colliders[which[c]], at, at);
+            const real radius = colliders[which[c]].center.w + room;
             if (any_lane((dot_lanes(out, out) < radius * radius) & inside))
                 touched[touched_count++] = which[c];
         }

@@ -2,9 +2,9 @@
 // root as the guides' nodes do from theirs, in barycentric shares. Work-item: WIDTH strands.
 #include "interpolate.h"
 
-// The share of its weight that a guide keeps beside the heaviest one. Guides that part company, to either side of the face
-// or of a shoulder, must not be mixed: their mean would lie inside the head. It fades as they part, so that nothing jumps,
-// and is gone where they are twice info->parting further apart than at their roots.
+// The share of its weight that a guide keeps beside the heaviest one. Guides that part company, to either side of the
+// face or of a shoulder, must not be mixed: their mean would lie inside the head. It fades as they part, so that
+// nothing jumps, and is gone where they are twice info->parting further apart than at their roots.
 static inline real kept_weight(global const float* position, const int* heaviest, const int* guide, float parting)
 {
     const Points h = guide_node(position, heaviest, 1), g = guide_node(position, guide, 1);
@@ -22,8 +22,9 @@ static inline real kept_weight(global const float* position, const int* heaviest
 }
 
 kernel void interpolate_multi(global const float* position, global const DrawnStrand* strands,
-                              global float4* drawn_position, global const float* depth, constant float4* colliders,
-                              constant HairParams* params, constant StepInfo* info)
+                              global float4* drawn_position, global const float* depth,
+                              global const float* body_distance, global const float4* body_way,
+                              constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
 {
     const int first = get_global_id(0) * WIDTH;
     if (first >= info->drawn_multi)
@@ -63,5 +64,5 @@ kernel void interpolate_multi(global const float* position, global const DrawnSt
     const Points shift = points(root.x - node[1].x, root.y - node[1].y, root.z - node[1].z);
     for (int k = 0; k < NODES; ++k)
         node[k] = points(node[k].x + shift.x, node[k].y + shift.y, node[k].z + shift.z);
-    finish_strands(node, strand, strands, drawn_position, depth, colliders, params, info);
+    finish_strands(node, strand, strands, drawn_position, depth, body_distance, body_way, colliders, params, info);
 }

@@ -51,6 +51,8 @@ typedef struct StepInfo
     float4 wind;          // m/s^2; w: its length
     float4 gust_origin; // offset into the turbulence at this time, in cells of the noise; w: size of the gusts against
                         // the wind
+    // First sample of the head's distance grid in the head's frame, m; w: between samples, m.
+    float4 body_corner;
     float4 grid_corner; // lowest corner of the grid, m; w: side of a voxel, m
     float4 sweep;     // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
                       // per fixed-point unit of density (1/m)
@@ -84,6 +86,9 @@ typedef struct StepInfo
     int sweep_axis;     // 0, 1, 2: main axis of the light's sweep
     int sweep_from;     // first slice of the sweep
     int sweep_sign;     // -1 or +1: from slice to slice
+    int body_x;         // samples of the head's distance grid along its axes; 0 without one
+    int body_y;
+    int body_z;
 } StepInfo;
 
 // The head on its way through one step, in sixteenths, for the direct solver, which takes 1, 2, 4, 8 or 16 substeps;
@@ -120,7 +125,15 @@ static inline int density_first(int strand, int stride)
     return 1 + (int)((part * (unsigned)stride) >> 16);
 }
 
-// Spheres that a style and its head may have together.
+// A body that hair stays outside of: all within a radius of a stretch, which for a sphere has no length. Relative to
+// the head's origin along the world's axes, m.
+typedef struct Capsule
+{
+    float4 center; // one end of the stretch; w: radius
+    float4 axis;   // from there to the other end; w: 1 / its length squared, 0 for a sphere
+} Capsule;
+
+// Colliders that a style and its head may have together.
 #define MOST_COLLIDERS 512
 
 // Guides lie in blocks of 16, lane by lane, so that one vector or one work-group moves 16 strands at once.

@@ -7,16 +7,12 @@
 //   |a + move| = l, corrections along a   second order, no numerical damping
 //
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
-// Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT and DENSITY
-// are build options.
+// Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
+// (with CONTACT) and DENSITY are build options.
 #include "bodies.h"
 #include "direct.h"
 #include "faults.h"
 #include "forces.h"
-
-
-
-
 
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
@@ -47,8 +43,8 @@ static inline int halvings(global const float* tension, global const float* segm
 }
 
 // The strands in `which` to their rest shape at this pose of the head, moving with it.
-static inline void start_again(whole which, HeadPose head, global const float* rest_position, Points velocity, Points* x,
-                               Points* v, real* pull)
+static inline void start_again(whole which, HeadPose head, global const float* rest_position, Points velocity,
+                               Points* x, Points* v, real* pull)
 {
     for (int i = 0; i < NODES; ++i)
     {
@@ -65,7 +61,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                             global const float* root_direction, global const float* segment_length,
                             global const float* rest_position, global const float* rest_bend,
                             global const float* root_normal, global const float* gradient, global int* density,
-                            global float* moved, global int* resets, global int* faults, constant float4* bodies, constant StepPath* path,
+                            global float* moved, global int* resets, global int* faults,
+                            global const float* body_distance, constant Capsule* bodies, constant StepPath* path,
                             constant HairParams* params, constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
@@ -104,8 +101,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const whole came_bad = bad_position | bad_motion;
     if (any_lane(came_bad))
         start_again(came_bad, begin, rest_position + first, head_velocity, x, v, pull);
-    // From here on what a node moves in a substep at its velocity: to and fro each substep, h times the float nearest to
-    // 1 / h would be a drag of its own, 6e-5 1/s with 16 substeps.
+    // From here on what a node moves in a substep at its velocity: to and fro each substep, h times the float nearest
+    // to 1 / h would be a drag of its own, 6e-5 1/s with 16 substeps.
     for (int i = 0; i < NODES; ++i)
         v[i] = times((real)(h), v[i]);
 
@@ -124,13 +121,17 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #ifdef CONTACT
     Bodies near;
     bodies_near(&near, bodies, info, begin, end, x[1], rest * (float)NODES);
+#ifdef BODY_GRID
+    near.grid = body_distance;
+    near.info = info;
+#endif
     // Hair that starts inside a body is let out at a bounded speed.
     real inside[NODES];
-    for (int i = 2; i < NODES && near.near_count > 0; ++i)
+    for (int i = 2; i < NODES && any_near(&near); ++i)
     {
         Points away;
         whole on_head;
-        inside[i] = fmax(-body_distance(&near, begin, x[i], &away, &on_head), (real)(0.0f));
+        inside[i] = fmax(-nearest_body(&near, begin, x[i], &away, &on_head), (real)(0.0f));
     }
 #endif
 #ifdef WIND
@@ -191,7 +192,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #endif
 
 #ifdef CONTACT
-        for (int i = 2; i < NODES && near.near_count > 0; ++i)
+        for (int i = 2; i < NODES && any_near(&near); ++i)
         {
             inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
             push_and_rub(&near, last, now, x[i], &move[i], inside[i], params->forces_friction);
@@ -216,7 +217,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             kept = rescue(x, predicted, move, pull, rest, tip_mass, failed, &bad);
 
 #ifdef CONTACT
-        if (near.near_count > 0)
+        if (any_near(&near))
         {
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)

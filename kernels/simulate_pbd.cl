@@ -4,12 +4,27 @@
 //   v  <- v e^(-b h) + a (1 - e^(-b h)) / b          drag exactly, any b h
 //   x* <- x + h v,  constraints on x*,  v <- (x* - x) / h
 //
-// Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION and DENSITY are build options.
+// Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION, DENSITY and BODY_GRID are build
+// options.
 #include "contact.h"
+#include "distance_grid.h"
 #include "faults.h"
 #include "forces.h"
 #include "lanes.h"
 #include "pbd.h"
+
+#ifdef BODY_GRID
+// Where the head's surface is about a node: body[0..2] its normal, body[3] the level of its plane.
+static inline void find_body(real x, real y, real z, real* body, global const float* body_distance,
+                             constant StepInfo* info)
+{
+    const BodyPlane plane = body_plane(body_distance, x, y, z, info);
+    body[0] = plane.nx;
+    body[1] = plane.ny;
+    body[2] = plane.nz;
+    body[3] = plane.nx * x + plane.ny * y + plane.nz * z - plane.distance;
+}
+#endif
 
 #define CLOSING_TURNS 8
 #define MOST_STRETCH 1.005f // of a segment whose stretching is 1
@@ -25,8 +40,9 @@ static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
 
 kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
                          global const float* root_direction, global const float* segment_length,
-                         global const float* gradient, global int* density, global int* resets,
-                         global int* faults, constant float4* colliders, constant HairParams* params, constant StepInfo* info)
+                         global const float* gradient, global int* density, global int* resets, global int* faults,
+                         global const float* body_distance, constant Capsule* colliders, constant HairParams* params,
+                         constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
     if (strand >= (info->guides + LANES - 1) / LANES * LANES)
@@ -101,16 +117,31 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     int near_count = 0;
     for (int c = 0; c < info->colliders; ++c)
     {
-        const float4 sphere = colliders[c];
-        const real ax = x[1] - sphere.x, ay = y[1] - sphere.y, az = z[1] - sphere.z, far = sphere.w + reach * rest;
+        real ax, ay, az;
+        nearest_on_axis(colliders[c], x[1], y[1], z[1], &ax, &ay, &az);
+        ax = x[1] - ax;
+        ay = y[1] - ay;
+        az = z[1] - az;
+        const real far = colliders[c].center.w + reach * rest;
         if (any_lane(ax * ax + ay * ay + az * az < far * far))
             near[near_count++] = (short)c;
     }
+
+#ifdef BODY_GRID
+    // A plane stands for the head in the sweeps: fetched once, from where the node would go.
+    real body[NODES][4];
+    for (int i = 2; i < NODES; ++i)
+        find_body(x[i], y[i], z[i], body[i], body_distance, info);
+#endif
 
     for (int sweep = 0; sweep < params->solver_iterations; ++sweep)
     {
         // Over-relaxed but for the last sweep, which leaves no overshoot (Young 1950; make_step_info has the factor).
         const float strength = sweep + 1 < params->solver_iterations ? info->stretch * info->relax : info->stretch;
+#ifdef BODY_GRID
+        for (int i = 2; i < NODES; ++i)
+            push_above(&x[i], &y[i], &z[i], body[i][0], body[i][1], body[i][2], body[i][3]);
+#endif
         for (int c = 0; c < near_count; ++c)
             for (int i = 2; i < NODES; ++i)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
@@ -130,6 +161,11 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         {
             if (turns < CLOSING_TURNS / 2)
                 limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], most);
+#ifdef BODY_GRID
+            if (turns % 3 == 0) // the head as it is: when the walk comes, when lengths are done, and last
+                find_body(x[i], y[i], z[i], body[i], body_distance, info);
+            push_above(&x[i], &y[i], &z[i], body[i][0], body[i][1], body[i][2], body[i][3]);
+#endif
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
         }

@@ -61,10 +61,9 @@ kernel void transmittance(global const int* occupied, global float* depth, const
         last_u = u;
         last_v = v;
 
-        const chunk_real here = (1.0f - fv) * ((1.0f - fu) * row_of(slice, u, v, su, sv, 0) +
-                                               fu * row_of(slice, u, v, su, sv, 1)) +
-                                fv * ((1.0f - fu) * row_of(slice, u, v + 1, su, sv, 0) +
-                                      fu * row_of(slice, u, v + 1, su, sv, 1));
+        const chunk_real here =
+            (1.0f - fv) * ((1.0f - fu) * row_of(slice, u, v, su, sv, 0) + fu * row_of(slice, u, v, su, sv, 1)) +
+            fv * ((1.0f - fu) * row_of(slice, u, v + 1, su, sv, 0) + fu * row_of(slice, u, v + 1, su, sv, 1));
         tau += 0.5f * (before + here) * (info->sweep.z * info->sweep.w);
         before = here;
         CHUNK_STORE_REAL(tau, depth + (passed * RESOLUTION + j) * RESOLUTION + i);

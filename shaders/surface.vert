@@ -14,6 +14,7 @@ in vec3 normal;
 in float roots; // 1 on the scalp, 0 away from it
 
 uniform vec4 place; // m; w: scale
+uniform vec3 stretch; // m: the half of a sphere that looks this way moves by so much, which makes a capsule
 uniform int on_head;
 uniform vec4 albedo; // linear; w: how far the roots tint it
 
@@ -28,7 +29,8 @@ vec3 turned(vec3 v)
 
 void main()
 {
-    vec3 p = turned(position * place.w + place.xyz), n = normalize(turned(normal));
+    vec3 p = turned(position * place.w + place.xyz + (dot(position, stretch) > 0.0 ? stretch : vec3(0.0)));
+    vec3 n = normalize(turned(normal));
     vec3 l = params.look_light_direction.xyz, e = normalize(frame.camera_position.xyz - p);
     vec3 h = normalize(l + e + vec3(0.0, 1e-6, 0.0));
     // A voxel and a half off the surface: the grid holds the body itself.

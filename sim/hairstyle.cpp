@@ -123,15 +123,19 @@ static Collider read_collider(const fs::path& file, const toml::node& entry)
         const auto at = [&, &node = value](const std::string& what)
         { return fail("{}: {}", place(file, node.source()), what); };
         double v[3] = {};
-        if (key == "center")
+        if (key == "center" || key == "to")
         {
+            const std::string_view name(key.str());
             if (!read_three(value, v))
-                throw at("collider.center must be three numbers in metres");
+                throw at(fmt::format("collider.{} must be three numbers in metres", name));
             for (int i = 0; i < 3; ++i)
                 if (!(std::abs(v[i]) <= 100.0))
-                    throw at(fmt::format("collider.center is {}, but must lie in [-100, 100] m", v[i]));
-            collider.center = {v[0], v[1], v[2]};
-            has_center = true;
+                    throw at(fmt::format("collider.{} is {}, but must lie in [-100, 100] m", name, v[i]));
+            if (key == "to")
+                collider.to = glm::vec3(v[0], v[1], v[2]);
+            else
+                collider.center = {v[0], v[1], v[2]};
+            has_center |= key == "center";
         }
         else if (key == "radius")
         {
@@ -150,7 +154,8 @@ static Collider read_collider(const fs::path& file, const toml::node& entry)
             collider.on_head = on == "head";
         }
         else
-            throw at(fmt::format("a collider has no '{}'; it has center, radius and on", std::string_view(key.str())));
+            throw at(fmt::format("a collider has no '{}'; it has center, radius, on, and to if it is a capsule",
+                                 std::string_view(key.str())));
     }
     if (!has_center || !has_radius)
         throw fail("{}: a collider needs center and radius", place(file, entry.source()));

@@ -97,9 +97,11 @@ static TomlEntry collider_entry(const Collider& collider)
         text.params.camera_distance = float(value);
         return value_text(text, *find_param("camera.distance"));
     };
-    TomlEntry entry = {{"center", fmt::format("[{}, {}, {}]", number(collider.center.x), number(collider.center.y),
-                                              number(collider.center.z))},
-                       {"radius", number(collider.radius)}};
+    const auto point = [&](glm::vec3 p) { return fmt::format("[{}, {}, {}]", number(p.x), number(p.y), number(p.z)); };
+    TomlEntry entry = {{"center", point(collider.center)}};
+    if (collider.to)
+        entry.push_back({"to", point(*collider.to)});
+    entry.push_back({"radius", number(collider.radius)});
     if (collider.on_head)
         entry.push_back({"on", "\"head\""});
     return entry;

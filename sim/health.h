@@ -8,8 +8,8 @@ namespace coif
 {
 
 // How well the hair holds together at one moment. Stretch is |length / rest - 1| of a segment, nodes 1 and outwards;
-// penetration is how deep a node lies inside a collider, nodes 2 and outwards (0 and 1 lie under the scalp by design),
-// before wave offsets.
+// penetration is how deep a node lies inside the head or a collider, nodes 2 and outwards (0 and 1 lie under the scalp
+// by design), before wave offsets.
 struct Health
 {
     double stretch_max = 0.0, stretch_mean = 0.0; // fractions
@@ -17,6 +17,13 @@ struct Health
     double drawn_penetration_max = 0.0;           // m, drawn strands
     bool finite = true;
 };
+
+// The point of a capsule's axis that is nearest to p, m. Ericson, Real-Time Collision Detection, 2005, 5.1.2.
+glm::vec3 nearest_on_axis(const Capsule& capsule, glm::vec3 p);
+
+// How deep p lies in the head's grid or in the deepest of the colliders (Solver::placed_colliders), m; 0 outside. p
+// relative to the head's origin along the world's axes.
+double depth_in(const std::vector<Capsule>& colliders, const Solver& solver, glm::vec3 p);
 
 // Reads the guides, and with `drawn` the drawn strands of the last draw() as well.
 Health measure_health(const Solver& solver, const HairParams& params, bool drawn);

@@ -262,32 +262,37 @@ Mesh load_mesh(const std::filesystem::path& file)
     return mesh;
 }
 
-float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c)
+glm::vec3 from_triangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c)
 {
     const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
     const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
     if (d1 <= 0.0f && d2 <= 0.0f)
-        return glm::length(ap);
+        return ap;
     const glm::vec3 bp = p - b;
     const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
     if (d3 >= 0.0f && d4 <= d3)
-        return glm::length(bp);
+        return bp;
     const glm::vec3 cp = p - c;
     const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
     if (d6 >= 0.0f && d5 <= d6)
-        return glm::length(cp);
+        return cp;
     const float vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
     if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f && d1 - d3 > 0.0f)
-        return glm::length(ap - ab * (d1 / (d1 - d3)));
+        return ap - ab * (d1 / (d1 - d3));
     if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f && d2 - d6 > 0.0f)
-        return glm::length(ap - ac * (d2 / (d2 - d6)));
+        return ap - ac * (d2 / (d2 - d6));
     const float e = d4 - d3, f = d5 - d6;
     if (va <= 0.0f && e >= 0.0f && f >= 0.0f && e + f > 0.0f)
-        return glm::length(bp - (c - b) * (e / (e + f)));
+        return bp - (c - b) * (e / (e + f));
     const float sum = va + vb + vc;
     if (!(sum > 0.0f))
-        return glm::length(ap); // no area
-    return glm::length(ap - ab * (vb / sum) - ac * (vc / sum));
+        return ap; // no area
+    return ap - ab * (vb / sum) - ac * (vc / sum);
+}
+
+float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c)
+{
+    return glm::length(from_triangle(p, a, b, c));
 }
 
 std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center)

@@ -31,7 +31,9 @@ Scalp load_scalp(const std::filesystem::path& file);
 // Error when it is no mesh, has no triangles, more than five million of them, or coordinates that are not finite.
 Mesh load_mesh(const std::filesystem::path& file);
 
-// Distance from p to triangle abc, m. Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
+// From the point of triangle abc that is nearest to p, to p, and how long that is, m. Ericson, Real-Time Collision
+// Detection, 2005, section 5.1.5.
+glm::vec3 from_triangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c);
 float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c);
 
 // Area-weighted normals of the positions; where triangles give none, the direction from `center`.

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,12 +13,13 @@
 namespace coif
 {
 
-// A sphere that hair slides over.
+// A sphere or a capsule that hair slides over.
 struct Collider
 {
-    glm::vec3 center{0.0f}; // m, in the head's frame or in the world
-    float radius = 0.05f;   // m
-    bool on_head = false;   // moves with the head
+    glm::vec3 center{0.0f};           // m, in the head's frame or in the world
+    float radius = 0.05f;             // m
+    bool on_head = false;             // moves with the head
+    std::optional<glm::vec3> to = {}; // a capsule's second end; a sphere has none
     bool operator==(const Collider&) const = default;
 };
 

@@ -11,6 +11,9 @@
 namespace coif
 {
 
+// m: hair does not follow hollows of less than this radius, ears above all.
+static constexpr float kHollow = 0.035f;
+
 static std::filesystem::path asset(const Hairstyle& style, const std::string& key, const std::string& written)
 {
     return resolve_path(style, key, written, data_folder() / "assets");
@@ -42,18 +45,44 @@ Assets load_assets(const Hairstyle& style)
     if (!style.host.head_spheres.empty())
         assets.spheres = load("head.spheres", style.host.head_spheres, load_colliders);
     else
-        assets.spheres = {{assets.scalp.center, assets.scalp.radius, true}};
+        assets.spheres = {{assets.scalp.center, assets.scalp.radius, true, {}}};
     return assets;
 }
 
-std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets)
+PlacedGrid head_grid(const Hairstyle& style, Assets& assets)
+{
+    const HairParams& p = style.params;
+    if (p.head_contact != 0 || assets.head.triangles.empty())
+        return {};
+    if (assets.distances.empty())
+        assets.distances = cached_distance_grid(assets.head, cache_folder());
+    if (assets.distances.empty())
+        return {};
+    if (p.head_mesh_scale != assets.grid_scale)
+        assets.grid = std::make_shared<const DistanceGrid>(body_grid(assets.distances, kHollow / p.head_mesh_scale));
+    assets.grid_scale = p.head_mesh_scale;
+    // As app/renderer_upload.cpp places the mesh.
+    return {assets.grid, p.head_mesh_scale * p.head_scale,
+            glm::vec3(p.head_offset.x, p.head_offset.y, p.head_offset.z) * p.head_scale};
+}
+
+std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets, bool grid)
 {
     const HairParams& p = style.params;
     const bool own = style.host.head_spheres.empty(); // fitted to the scalp: where the mesh lies does not matter
     const glm::vec3 offset = own ? glm::vec3(0.0f) : glm::vec3(p.head_offset.x, p.head_offset.y, p.head_offset.z);
     std::vector<Collider> all;
-    for (const Collider& sphere : assets.spheres)
-        all.push_back({(sphere.center + offset) * p.head_scale, sphere.radius * p.head_scale, true});
+    for (Collider body : assets.spheres)
+    {
+        if (grid)
+            break;
+        body.center = (body.center + offset) * p.head_scale;
+        if (body.to)
+            body.to = (*body.to + offset) * p.head_scale;
+        body.radius *= p.head_scale;
+        body.on_head = true;
+        all.push_back(body);
+    }
     all.insert(all.end(), style.host.colliders.begin(), style.host.colliders.end());
     return all;
 }
@@ -69,8 +98,15 @@ Simulation::Simulation(const Device& device, Hairstyle style) : device_(device),
     assets_ = load_assets(authored_);
     style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
     solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
-    solver_->set_colliders(all_colliders(style_, assets_));
+    set_bodies(style_);
     drape();
+}
+
+void Simulation::set_bodies(const Hairstyle& style)
+{
+    const PlacedGrid grid = head_grid(style, assets_);
+    solver_->set_body(grid);
+    solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));
 }
 
 // Lets hair fall to where it rests, and begins there: nothing sags when it is first seen. First in air thick enough to
@@ -160,9 +196,9 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         solver_->set_groom(groom);
     }
     solver_->set_params(style.params);
-    solver_->set_colliders(all_colliders(style, meshes ? fresh : assets_));
     if (meshes)
         assets_ = std::move(fresh);
+    set_bodies(style);
     if (style.params.solver_rate != style_.params.solver_rate)
     {
         rate_since_ = time_; // time goes on from here at the new rate

@@ -1,4 +1,5 @@
 #pragma once
+#include "sim/distance_grid.h"
 #include "sim/hairstyle.h"
 #include "sim/mesh.h"
 #include "sim/quality.h"
@@ -14,15 +15,23 @@ namespace coif
 struct Assets
 {
     Scalp scalp;
-    Mesh head;                     // empty if the style names none
-    std::vector<Collider> spheres; // that stand for the head
+    Mesh head;                                // empty if the style names none
+    std::vector<Collider> spheres;            // that stand for the head, unless its grid does
+    DistanceGrid distances;                   // to the head's mesh, once a style has asked for them
+    std::shared_ptr<const DistanceGrid> grid; // the same with hollows filled, as wide as head.mesh_scale asks
+    float grid_scale = 0.0f;                  // that it asked for then
 };
 
 // Loads them; throws Error with the place in the style where a path is written.
 Assets load_assets(const Hairstyle& style);
 
-// The head's own spheres, scaled and offset as the style says, followed by the style's colliders.
-std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets);
+// The distance grid that stands for the head, scaled and offset as the style says; without a grid if head.contact is
+// spheres or there is no mesh. Computed or read from the cache if these assets have none yet.
+PlacedGrid head_grid(const Hairstyle& style, Assets& assets);
+
+// The head's own spheres, scaled and offset as the style says, unless its grid stands for it; followed by the style's
+// colliders.
+std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets, bool grid);
 
 // A hairstyle that lives: assets, groom and solver, and the time that runs in fixed steps whatever the frame rate.
 class Simulation
@@ -69,6 +78,7 @@ class Simulation
 
   private:
     void drape();
+    void set_bodies(const Hairstyle& style);
 
     const Device& device_;
     Hairstyle authored_, style_; // as written, and as simulated

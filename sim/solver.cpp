@@ -30,9 +30,11 @@ Solver::Solver(const Device& device, const HairParams& params, const Groom& groo
     params_ = device_params(params);
     buffers_["params"] = allocate(device, sizeof(HairParams), "the parameters");
     buffers_["info"] = allocate(device, sizeof(StepInfo), "the step");
-    buffers_["colliders"] = allocate(device, sizeof(float4), "the colliders");
-    buffers_["bodies"] = allocate(device, 2 * sizeof(float4), "the colliders");
+    buffers_["colliders"] = allocate(device, sizeof(Capsule), "the colliders");
+    buffers_["bodies"] = allocate(device, sizeof(Capsule), "the colliders");
     buffers_["path"] = allocate(device, sizeof(StepPath), "the step");
+    buffers_["body_distance"] = allocate(device, sizeof(float), "the head's distances");
+    buffers_["body_way"] = allocate(device, sizeof(float), "the head's distances");
     head_ = head;
     set_groom(groom);
     set_params(params);
@@ -131,9 +133,8 @@ void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
     changed_ |= colliders != colliders_;
     if (colliders.size() > colliders_.size())
-        buffers_["colliders"] = allocate(device_, colliders.size() * sizeof(float4), "the colliders");
-    if (colliders.size() > colliders_.size())
-        buffers_["bodies"] = allocate(device_, 2 * colliders.size() * sizeof(float4), "the colliders");
+        for (const char* name : {"colliders", "bodies"})
+            buffers_[name] = allocate(device_, colliders.size() * sizeof(Capsule), "the colliders");
     colliders_ = colliders;
 }
 
@@ -145,14 +146,46 @@ void Solver::set_rest_shape()
     write(device_, buffer("root_normal"), rest_.normal);
 }
 
-std::vector<float4> Solver::placed_colliders() const
+void Solver::set_body(const PlacedGrid& body)
 {
-    std::vector<float4> placed;
-    for (const Collider& c : colliders_)
+    if (body.grid && body.grid != body_.grid)
     {
-        const glm::dvec3 center = c.on_head ? head_.turn * glm::dvec3(c.center) : glm::dvec3(c.center) - head_.origin;
-        placed.push_back(F4(float(center.x), float(center.y), float(center.z), c.radius));
+        std::vector<float> in_voxels;
+        for (const float distance : body.grid->distance)
+            in_voxels.push_back(distance / body.grid->voxel);
+        std::vector<float4> ways;
+        for (const glm::vec3& way : body.grid->way)
+            ways.push_back(F4(way.x, way.y, way.z, 0.0f));
+        Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
+        fresh["body_distance"] = allocate(device_, in_voxels.size() * sizeof(float), "the head's distances");
+        fresh["body_way"] = allocate(device_, ways.size() * sizeof(float4), "the head's distances");
+        write(device_, fresh["body_distance"], in_voxels);
+        write(device_, fresh["body_way"], ways);
+        buffers_ = fresh;
     }
+    changed_ |= body != body_;
+    body_ = body;
+}
+
+static Capsule capsule_of(glm::dvec3 center, glm::dvec3 axis, float radius)
+{
+    // An axis that is short against the radius is none.
+    const double squared = glm::dot(axis, axis), least = 1e-6 * double(radius) * double(radius);
+    return {F4(float(center.x), float(center.y), float(center.z), radius),
+            F4(float(axis.x), float(axis.y), float(axis.z), squared > least ? float(1.0 / squared) : 0.0f)};
+}
+
+static glm::dvec3 axis_of(const Collider& c)
+{
+    return c.to ? glm::dvec3(*c.to) - glm::dvec3(c.center) : glm::dvec3(0.0);
+}
+
+std::vector<Capsule> Solver::placed_colliders() const
+{
+    std::vector<Capsule> placed;
+    for (const Collider& c : colliders_)
+        placed.push_back(c.on_head ? capsule_of(head_.turn * glm::dvec3(c.center), head_.turn * axis_of(c), c.radius)
+                                   : capsule_of(glm::dvec3(c.center) - head_.origin, axis_of(c), c.radius));
     return placed;
 }
 
@@ -230,25 +263,22 @@ void Solver::upload(const StepInfo& info)
 {
     info_ = info;
     send("info", &info, sizeof info);
-    const std::vector<float4> placed = placed_colliders();
-    send("colliders", placed.data(), placed.size() * sizeof(float4));
+    const std::vector<Capsule> placed = placed_colliders();
+    send("colliders", placed.data(), placed.size() * sizeof(Capsule));
 }
 
 // Bodies as kernels/bodies.h wants them: the head's own first, in its frame; the others against the path's origin.
 void Solver::upload_direct(const StepPath& path, const Pose& before, bool teleport)
 {
     send("path", &path, sizeof path);
-    std::vector<float4> bodies;
+    const glm::dvec3 origin = teleport ? head_.origin : before.origin;
+    std::vector<Capsule> bodies;
     for (const bool on_head : {true, false})
         for (const Collider& c : colliders_)
             if (c.on_head == on_head)
-            {
-                const glm::dvec3 at =
-                    on_head ? glm::dvec3(c.center) : glm::dvec3(c.center) - (teleport ? head_.origin : before.origin);
-                bodies.push_back(F4(float(at.x), float(at.y), float(at.z), c.radius));
-                bodies.push_back(F4(0.0f, 0.0f, 0.0f, 0.0f));
-            }
-    send("bodies", bodies.data(), bodies.size() * sizeof(float4));
+                bodies.push_back(
+                    capsule_of(glm::dvec3(c.center) - (on_head ? glm::dvec3(0.0) : origin), axis_of(c), c.radius));
+    send("bodies", bodies.data(), bodies.size() * sizeof(Capsule));
 }
 
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
@@ -261,8 +291,8 @@ void Solver::simulate(const StepInfo& info)
     if (params_.solver_kind == 0)
         return simulate_direct(info);
     launch_strands("simulate_pbd",
-                   fmt::format("{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
-                               density ? "-D DENSITY " : ""),
+                   fmt::format("{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                               density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : ""),
                    size_t(groom_.blocks) * LANES);
 }
 
@@ -273,13 +303,14 @@ void Solver::simulate_direct(const StepInfo& info)
     const double links = groom_.nodes - 2;
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
     // And stiffer than this, it does not bend, but for a body that it meets.
-    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f && colliders_.empty())
+    const bool contact = !colliders_.empty() || body_.grid;
+    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f && !contact)
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
     launch_strands("simulate_direct",
-                   fmt::format("{}{}{}{}{}{}", bending ? "-D BENDING " : "",
+                   fmt::format("{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
                                bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
-                               repels ? "-D REPULSION " : "", colliders_.empty() ? "" : "-D CONTACT ",
-                               density ? "-D DENSITY " : ""),
+                               repels ? "-D REPULSION " : "", contact ? "-D CONTACT " : "",
+                               body_.grid ? "-D BODY_GRID " : "", density ? "-D DENSITY " : ""),
                    size_t(groom_.blocks) * LANES);
     std::swap(buffers_["tension"], buffers_["tension_next"]);
     std::swap(buffers_["pace"], buffers_["pace_next"]);
@@ -322,7 +353,7 @@ void Solver::step(const std::vector<Substep>& wanted)
     {
         const Substep& now = substeps[i];
         StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
-                                       i + 1 == substeps.size());
+                                       i + 1 == substeps.size(), body_);
         if (info.teleport)
             jumped_ += now.head.origin - head_.origin;
         else
@@ -364,9 +395,10 @@ void Solver::draw()
     drawn_asleep_ = asleep_ && !changed_;
     // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
     StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
-                                   int(colliders_.size()), true);
+                                   int(colliders_.size()), true, body_);
     upload(info);
-    const std::string shadow = has_shadow() ? "-D SHADOW" : "";
+    const std::string options =
+        fmt::format("{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "");
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
@@ -375,10 +407,14 @@ void Solver::draw()
         if (!colliders_.empty())
             launches_.emplace_back("add_bodies", run(device_, kernel("add_bodies", ""), buffers_,
                                                      cl::NDRange(side, side, colliders_.size())));
+        if (body_.grid)
+            launches_.emplace_back(
+                "add_head", run(device_, kernel("add_head", ""), buffers_,
+                                cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
         launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
     }
-    launch_strands("interpolate_multi", shadow, size_t(groom_.drawn_multi));
-    launch_strands("interpolate_single", shadow, groom_.drawn.size() - size_t(groom_.drawn_multi));
+    launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
+    launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
     launch_strands("transport_frames", "", groom_.drawn.size());
 }
 

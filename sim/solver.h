@@ -1,5 +1,6 @@
 #pragma once
 #include "sim/device.h"
+#include "sim/distance_grid.h"
 #include "sim/groom.h"
 #include "sim/motion.h"
 #include "sim/params.h"
@@ -42,6 +43,8 @@ class Solver
 
     // In the head's frame those on_head, in the world the others.
     void set_colliders(const std::vector<Collider>& colliders);
+    // The distance grid that stands for the head, or none.
+    void set_body(const PlacedGrid& body);
 
     void reset(const Pose& head); // all strands straight from their roots, at rest
     // One fixed step, cut into substeps (thesis, figure 4.1). A substep that is not longer than zero is none.
@@ -68,7 +71,8 @@ class Solver
     const Groom& groom() const { return groom_; }
     const StepInfo& info() const { return info_; }
     const Pose& head() const { return head_; }
-    std::vector<float4> placed_colliders() const; // relative to the head's origin, at the last step
+    std::vector<Capsule> placed_colliders() const; // relative to the head's origin, at the last step
+    const PlacedGrid& body() const { return body_; }
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
     PassTimes take_times();
 
@@ -102,6 +106,7 @@ class Solver
     double seconds_before_ = 1.0 / 60.0; // of the last substep
     glm::dvec3 head_velocity_{0.0}, jumped_{0.0};
     std::vector<Collider> colliders_;
+    PlacedGrid body_;
     StepInfo info_ = {};
     Buffers buffers_;
     std::map<std::string, Kernel> kernels_; // by file and options
@@ -114,7 +119,7 @@ class Solver
 // What the device reads in one substep, for `before` -> `now`. Thesis eq. 5.5 for strengths, accuracy of the sweeps'
 // over-relaxation as Young 1950, optical depth as Bertails et al. 2005. `params` as the device reads them.
 StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
-                        const Substep& now, int colliders, bool last);
+                        const Substep& now, int colliders, bool last, const PlacedGrid& body = {});
 
 // The head on its way through a substep, and what drag leaves of the velocities.
 StepPath make_step_path(const HairParams& params, const Pose& before, const Substep& now, bool teleport,

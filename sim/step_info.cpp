@@ -66,7 +66,7 @@ static void set_density(StepInfo& info, const Groom& groom)
 }
 
 StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
-                        const Substep& now, int colliders, bool last)
+                        const Substep& now, int colliders, bool last, const PlacedGrid& body)
 {
     StepInfo info = {};
     const double h = now.seconds;
@@ -135,6 +135,14 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.drawn_multi = groom.drawn_multi;
     info.drawn = int(groom.drawn.size());
     info.colliders = colliders;
+    if (body.grid)
+    {
+        info.body_corner = vector4(glm::dvec3(body.grid->corner) * double(body.scale) + glm::dvec3(body.offset),
+                                   double(body.grid->voxel) * body.scale);
+        info.body_x = body.grid->size.x;
+        info.body_y = body.grid->size.y;
+        info.body_z = body.grid->size.z;
+    }
     info.teleport = teleport;
     info.last_substep = last;
     return info;

@@ -6,10 +6,14 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace coif
 {
+
+// What tests keep for the next run is not the user's.
+static const int kOwnCache = setenv("XDG_CACHE_HOME", COIF_BUILD_FOLDER "/test_cache", 1);
 
 const Device& test_device()
 {
@@ -132,6 +136,35 @@ Groom one_strand(int nodes, float length, glm::vec3 root, glm::vec3 direction)
     groom.extent = 0.2f;
     set_guides(groom, {glm::dvec3(root)}, {glm::dvec3(direction)}, {length / float(nodes - 2)});
     return groom;
+}
+
+std::shared_ptr<const DistanceGrid> lumpy_body()
+{
+    DistanceGrid grid;
+    grid.size = {30, 31, 29};
+    grid.corner = {-0.14f, -0.15f, -0.14f};
+    grid.voxel = 0.01f;
+    for (int z = 0; z < grid.size.z; ++z)
+        for (int y = 0; y < grid.size.y; ++y)
+            for (int x = 0; x < grid.size.x; ++x)
+            {
+                const glm::vec3 p = grid.corner + grid.voxel * glm::vec3(x, y, z) - glm::vec3(0.01f, 0.0f, 0.0f);
+                grid.distance.push_back(glm::length(p) - 0.09f -
+                                        0.004f * std::sin(60.0f * p.x) * std::cos(50.0f * p.y));
+            }
+    for (int z = 0; z <= grid.size.z / 2; ++z)
+        for (int y = 0; y <= grid.size.y / 2; ++y)
+            for (int x = 0; x <= grid.size.x / 2; ++x)
+                grid.way.push_back(glm::normalize(grid.corner + 2.0f * grid.voxel * glm::vec3(x, y, z) +
+                                                  glm::vec3(0.003f, 0.02f, 0.003f)));
+    return std::make_shared<const DistanceGrid>(grid);
+}
+
+Capsule capsule(glm::dvec3 center, double radius, glm::dvec3 axis)
+{
+    const double squared = glm::dot(axis, axis);
+    return {F4(float(center.x), float(center.y), float(center.z), float(radius)),
+            F4(float(axis.x), float(axis.y), float(axis.z), squared > 0.0 ? float(1.0 / squared) : 0.0f)};
 }
 
 std::vector<uint8_t> bytes_of(const Device& device, const cl::Buffer& buffer)

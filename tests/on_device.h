@@ -62,6 +62,13 @@ Groom random_groom(Random& random, int guides, int nodes, int drawn);
 // One guide whose root is at `root` and points along `direction` (unit length).
 Groom one_strand(int nodes, float length, glm::vec3 root, glm::vec3 direction);
 
+// A lumpy ball of about 9 cm about the head's centre as a distance grid, with ways out that differ from the slope a
+// little.
+std::shared_ptr<const DistanceGrid> lumpy_body();
+
+// A sphere, or with an axis a capsule, as the kernels read it.
+Capsule capsule(glm::dvec3 center, double radius, glm::dvec3 axis = glm::dvec3(0.0));
+
 // Every byte of a buffer.
 std::vector<uint8_t> bytes_of(const Device& device, const cl::Buffer& buffer);
 

@@ -157,17 +157,98 @@ std::vector<Vec> density_gradient(const std::vector<int>& density, int resolutio
 // ---- constraints
 // -----------------------------------------------------------------------------------------------------
 
-static void collide(Vec* x, int nodes, const std::vector<float4>& colliders)
+Vec nearest_on_axis(const Capsule& collider, Vec p)
 {
-    for (const float4& sphere : colliders)
+    const Vec center = xyz(collider.center), axis = xyz(collider.axis);
+    const double squared = glm::dot(axis, axis);
+    return squared > 0.0 ? center + axis * std::clamp(glm::dot(p - center, axis) / squared, 0.0, 1.0) : center;
+}
+
+BodyCorners body_corners(Vec p, const StepInfo& info, int stride)
+{
+    const int all[3] = {info.body_x, info.body_y, info.body_z};
+    const int size[3] = {stride > 1 ? all[0] / stride + 1 : all[0], stride > 1 ? all[1] / stride + 1 : all[1],
+                         stride > 1 ? all[2] / stride + 1 : all[2]};
+    const Vec local = xyz(info.head_row0) * p.x + xyz(info.head_row1) * p.y + xyz(info.head_row2) * p.z;
+    const Vec g = (local - xyz(info.body_corner)) / (stride * double(info.body_corner.w));
+    Vec within = g;
+    int cell[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        within[axis] = std::clamp(g[axis], 0.0, size[axis] - 1.0);
+        cell[axis] = std::min(int(within[axis]), size[axis] - 2);
+    }
+    BodyCorners corners = {{}, glm::length(g - within)};
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        double weight[3], change[3];
+        size_t sample = 0;
+        for (int axis = 2; axis >= 0; --axis)
+        {
+            const int c = corner >> axis & 1;
+            weight[axis] = 1.0 - std::abs(within[axis] - cell[axis] - c);
+            change[axis] = 2.0 * c - 1.0;
+            sample = sample * size_t(size[axis]) + size_t(cell[axis] + c);
+        }
+        corners.at[corner] = {sample, weight[0] * weight[1] * weight[2],
+                              Vec(change[0] * weight[1] * weight[2], weight[0] * change[1] * weight[2],
+                                  weight[0] * weight[1] * change[2])};
+    }
+    return corners;
+}
+
+Body body_of(const DistanceGrid& grid)
+{
+    Body body = {{}, grid.way};
+    for (const float distance : grid.distance)
+        body.distance.push_back(distance / grid.voxel);
+    return body;
+}
+
+Plane plane_at(const Body& body, Vec p, const StepInfo& info)
+{
+    if (!std::isfinite(p.x + p.y + p.z))
+        return {1e6, Vec(0, 1, 0)};
+    const BodyCorners corners = body_corners(p, info);
+    double distance = corners.away;
+    Vec slope(0.0);
+    for (const auto& corner : corners.at)
+    {
+        distance += corner.weight * body.distance[corner.sample];
+        slope += corner.slope * double(body.distance[corner.sample]);
+    }
+    const Vec normal =
+        glm::length(slope) > 1e-4 ? turned(info.head_row0, info.head_row1, info.head_row2, slope) : Vec(0, 1, 0);
+    return {distance * info.body_corner.w, glm::normalize(normal)};
+}
+
+static void collide(Vec* x, int nodes, const std::vector<Capsule>& colliders)
+{
+    for (const Capsule& collider : colliders)
         for (int i = 2; i < nodes; ++i)
         {
-            const Vec out = x[i] - xyz(sphere);
-            const double distance = glm::length(out), radius = sphere.w;
+            const Vec center = nearest_on_axis(collider, x[i]), out = x[i] - center;
+            const double distance = glm::length(out), radius = collider.center.w;
             if (distance < radius)
-                x[i] = xyz(sphere) + (distance > 1e-6 * radius ? out / distance : Vec(0, 1, 0)) * radius;
+                x[i] = center + (distance > 1e-6 * radius ? out / distance : Vec(0, 1, 0)) * radius;
         }
 }
+
+// The head's surface near a node, held as a plane while the node moves about.
+struct HeldPlane
+{
+    Vec normal{0.0};
+    double level = -1e9; // along the normal
+
+    HeldPlane() = default;
+    HeldPlane(const Body& body, Vec p, const StepInfo& info)
+    {
+        const Plane plane = plane_at(body, p, info);
+        normal = plane.normal;
+        level = glm::dot(p, normal) - plane.distance;
+    }
+    void push_out(Vec& p) const { p += normal * std::max(0.0, level - glm::dot(p, normal)); }
+};
 
 static double inverse_mass(int node) { return node < 2 ? 0.0 : 1.0; }
 
@@ -185,9 +266,12 @@ static void keep_distance(Vec& a, Vec& b, double mass_a, double mass_b, double r
         b -= mass_b * correction + (rounding ? rounding() : Vec(0.0));
 }
 
-static void sweep(Vec* x, int nodes, double rest, double strength, const std::vector<float4>& colliders,
-                  const HairParams& params, const StepInfo& info, const std::function<Vec()>& rounding)
+static void sweep(Vec* x, int nodes, double rest, double strength, const std::vector<Capsule>& colliders,
+                  const std::vector<HeldPlane>& head, const HairParams& params, const StepInfo& info,
+                  const std::function<Vec()>& rounding)
 {
+    for (int i = 2; i < nodes; ++i)
+        head[size_t(i)].push_out(x[i]);
     collide(x, nodes, colliders);
     for (const int first : {2, 1})
         for (int i = first; i + 1 < nodes; i += 2)
@@ -202,8 +286,8 @@ static void sweep(Vec* x, int nodes, double rest, double strength, const std::ve
 }
 
 void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradient, int resolution,
-                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
-                  const std::function<Vec()>& rounding)
+                  const std::vector<Capsule>& colliders, const HairParams& params, const StepInfo& info,
+                  const std::function<Vec()>& rounding, const Body& body)
 {
     const int n = strands.nodes;
     const double h = info.substep;
@@ -234,9 +318,12 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
             x[size_t(i)] = before[size_t(i)] + h * velocity - move;
         }
 
+        std::vector<HeldPlane> head(static_cast<size_t>(n));
+        for (int i = 2; i < n && !body.distance.empty(); ++i)
+            head[size_t(i)] = HeldPlane(body, x[size_t(i)], info);
         for (int k = 1; k <= params.solver_iterations; ++k)
             sweep(x.data(), n, rest, double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0),
-                  colliders, params, info, rounding);
+                  colliders, head, params, info, rounding);
         for (int i = 2; i < n; ++i) // the closing walk
             for (int turns = 0; turns < 8; ++turns)
             {
@@ -244,6 +331,9 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
                 const double most = (params.solver_stretching >= 1.0f ? 1.005 : 4.0) * rest, is = glm::length(segment);
                 if (turns < 4 && is > most)
                     x[size_t(i)] = x[size_t(i - 1)] + segment * (most / is);
+                if (turns % 3 == 0 && !body.distance.empty())
+                    head[size_t(i)] = HeldPlane(body, x[size_t(i)], info);
+                head[size_t(i)].push_out(x[size_t(i)]);
                 collide(x.data() + i - 2, 3, colliders); // this node only
             }
 

@@ -6,6 +6,7 @@
 // numbers, and fixed-point units of density.
 #pragma once
 #include "kernels/shared.h"
+#include "sim/distance_grid.h"
 
 #include <glm/vec3.hpp>
 
@@ -33,12 +34,47 @@ struct Forces
     bool wind = false, repulsion = false;
 };
 
+// The head's distance grid as the kernels read it, in voxels: StepInfo places it. Without values there is none.
+struct Body
+{
+    std::vector<float> distance; // [z][y][x]
+    std::vector<glm::vec3> way;
+};
+
+// The eight samples about a point, with their trilinear weights and how those change from voxel to voxel in the head's
+// frame; and how far the point is from the grid, in voxels.
+struct BodyCorners
+{
+    struct
+    {
+        size_t sample;
+        double weight;
+        Vec slope;
+    } at[8];
+    double away;
+};
+BodyCorners body_corners(Vec p, const StepInfo& info, int stride = 1); // of every stride-th sample
+
+// What Solver makes of a grid.
+Body body_of(const DistanceGrid& grid);
+
+// Trilinear distance at a point and the unit normal of its slope, m and along the world's axes.
+struct Plane
+{
+    double distance;
+    Vec normal;
+};
+Plane plane_at(const Body& body, Vec p, const StepInfo& info);
+
+// The point of a collider's axis that is nearest to p.
+Vec nearest_on_axis(const Capsule& collider, Vec p);
+
 // The guides' substep: thesis 5.1.2. `gradient` is per voxel, in fixed-point units a voxel. `rounding`, if given, is
 // added to every node that a constraint has moved: with the size of a float's rounding it shows how far the rounding of
 // single operations may carry the result.
 void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradient, int resolution,
-                  const std::vector<float4>& colliders, const HairParams& params, const StepInfo& info,
-                  const std::function<Vec()>& rounding = {});
+                  const std::vector<Capsule>& colliders, const HairParams& params, const StepInfo& info,
+                  const std::function<Vec()>& rounding = {}, const Body& body = {});
 
 // Accelerations, m/s^2: the wind with its gusts at a point, what of it acts on a strand of this tangent (eq. 5.2), and
 // what crowded hair adds.
@@ -62,7 +98,7 @@ std::vector<Vec> density_gradient(const std::vector<int>& density, int resolutio
 
 // How far each voxel's centre lies inside the nearest collider's opaque body, in voxels; the body begins 0.7 voxels
 // under the collider's surface.
-std::vector<double> depth_in_bodies(const std::vector<float4>& colliders, int resolution, const StepInfo& info);
+std::vector<double> depth_in_bodies(const std::vector<Capsule>& colliders, int resolution, const StepInfo& info);
 
 // Optical depth of every ray (i, j) in every slice: kernels/light_grid.h. Trapezoids from where the ray last came in.
 std::vector<double> transmittance(const std::vector<int>& occupied, int resolution, const StepInfo& info);
@@ -71,14 +107,18 @@ std::vector<double> transmittance(const std::vector<int>& occupied, int resoluti
 double light_depth(const std::vector<float>& depth, Vec point, int resolution, const HairParams& params,
                    const StepInfo& info);
 
-// Out of the union of all spheres, with room to spare.
-Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room);
+// How far each voxel's centre lies inside the head's opaque body, as above.
+std::vector<double> depth_in_head(const Body& body, int resolution, const StepInfo& info);
+
+// Out of the union of all colliders, with room to spare; and out of the head.
+Vec out_of_union(Vec p, const std::vector<Capsule>& colliders, double room);
+Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info);
 
 // A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, out of the colliders. Light apart.
 std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                   const std::vector<float4>& colliders, const StepInfo& info);
+                                   const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body = {});
 std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                    const std::vector<float4>& colliders, const StepInfo& info);
+                                    const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body = {});
 
 // Room that a drawn strand's node keeps from colliders, m: clearance, its layer, its waves.
 double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info);

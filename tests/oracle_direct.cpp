@@ -120,17 +120,36 @@ struct Nearest
 };
 } // namespace
 
-static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p)
+static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p, const Rounder& round)
 {
     Nearest nearest;
     const Vec origin = step.teleport ? step.now.head.origin : step.before.origin;
-    for (const Sphere& sphere : step.bodies)
+    if (step.on_grid)
     {
-        const Vec d = p - (sphere.on_head ? head.out(sphere.center) : sphere.center - origin);
-        const double from_center = glm::length(d);
-        if (from_center - sphere.radius < nearest.distance)
-            nearest = {from_center - sphere.radius, from_center > 1e-6 * sphere.radius ? d / from_center : Vec(0, 1, 0),
-                       sphere.on_head};
+        StepInfo in_head = step.info;
+        in_head.head_row0 = F4(1.0f, 0.0f, 0.0f, 0.0f);
+        in_head.head_row1 = F4(0.0f, 1.0f, 0.0f, 0.0f);
+        in_head.head_row2 = F4(0.0f, 0.0f, 1.0f, 0.0f);
+        // Places count from the grid's corner.
+        const Vec local = head.into(p);
+        const Vec off =
+            round(4.0 * glm::distance(local, Vec(in_head.body_corner.x, in_head.body_corner.y, in_head.body_corner.z)));
+        const Plane plane = plane_at(step.grid, local + off, in_head);
+        // And slopes are differences of distances, which count in voxels.
+        const double deep = std::abs(plane.distance) / double(in_head.body_corner.w);
+        nearest = {plane.distance, glm::normalize(head.turn * plane.normal + round(6.0 * deep)), true};
+    }
+    for (const Round& body : step.bodies)
+    {
+        const Vec center = body.on_head ? head.out(body.center) : body.center - origin;
+        const Vec axis = body.on_head ? head.turn * body.axis : body.axis;
+        const double squared = glm::dot(axis, axis);
+        const double share = squared > 0.0 ? std::clamp(glm::dot(p - center, axis) / squared, 0.0, 1.0) : 0.0;
+        const Vec d = p - center - share * axis;
+        const double from_axis = glm::length(d);
+        if (from_axis - body.radius < nearest.distance)
+            nearest = {from_axis - body.radius, from_axis > 1e-6 * body.radius ? d / from_axis : Vec(0, 1, 0),
+                       body.on_head};
     }
     return nearest;
 }
@@ -143,7 +162,7 @@ static void push_and_rub(const DirectStep& step, const Place& last, const Place&
                          const Rounder& round)
 {
     const Vec at = x + move + round(6.0 * (glm::length(x) + glm::length(move)));
-    const Nearest body = nearest_body(step, now, at);
+    const Nearest body = nearest_body(step, now, at, round);
     const double pushed = -(body.distance + inside);
     if (!(pushed > 0.0))
         return;
@@ -166,10 +185,12 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
         const Vec parent = x[size_t(k - 1)];
         Vec d = x[size_t(k)] - parent;
         d *= rest / std::max(glm::length(d), 1e-6 * rest);
+        Vec n_before(0.0);
+        double level_before = 0.0;
         for (int turn = 0; turn < 4; ++turn)
         {
             const Vec at = parent + d + round(6.0 * (glm::length(parent) + rest));
-            const Nearest body = nearest_body(step, now, at);
+            const Nearest body = nearest_body(step, now, at, round);
             const double gap = body.distance + inside[size_t(k)];
             if (!(gap < 0.0))
                 break;
@@ -180,7 +201,21 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
             Vec flat = d - glm::dot(n, d) * n;
             if (glm::length(flat) < 1e-4 * rest)
                 flat = std::abs(n.x) > 0.6 ? Vec(-n.z, 0.0, n.x) : Vec(0.0, n.z, -n.y);
+            const double level = glm::dot(n, d) - gap;
             d = std::sqrt(std::max(rest * rest - height * height, 0.0)) * glm::normalize(flat) - height * n;
+            // Below the last plane again: on the edge of both, where it is that far.
+            const double both = glm::dot(n, n_before);
+            if (turn > 0 && glm::dot(n_before, d) < level_before && 1.0 - both * both > 1e-3)
+            {
+                const Vec edge = glm::normalize(glm::cross(n_before, n));
+                const Vec base =
+                    glm::inverse(glm::transpose(glm::dmat3(n_before, n, edge))) * Vec(level_before, level, 0.0);
+                const double left = rest * rest - glm::dot(base, base);
+                if (left > 0.0)
+                    d = base + std::copysign(std::sqrt(left), glm::dot(edge, d)) * edge;
+            }
+            n_before = n;
+            level_before = level;
         }
         x[size_t(k)] = parent + d + round(2.0 * (glm::length(parent) + rest));
     }
@@ -222,7 +257,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         bend(strand, step, rest_bend, along, now.turn * normal, h, drag.gain, gain_steady, move, round);
     else
         move.back() /= step.tip_mass;
-    if (!step.bodies.empty())
+    if (step.on_grid || !step.bodies.empty())
         for (size_t i = 2; i < size_t(n); ++i)
         {
             inside[i] = std::max(inside[i] - double(step.info.push_out) * h, 0.0);
@@ -243,7 +278,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         move = predicted;
         sound = rescue(strand, move, step.tip_mass, kept, round);
     }
-    if (!step.bodies.empty())
+    if (step.on_grid || !step.bodies.empty())
     {
         std::vector<Vec> walked;
         for (size_t i = 0; i < size_t(n); ++i)
@@ -318,7 +353,7 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         std::vector<double> inside(size_t(n), 0.0);
         for (size_t i = 2; i < size_t(n); ++i)
         {
-            inside[i] = std::max(0.0, -nearest_body(step, begin, strand.x[i]).distance) +
+            inside[i] = std::max(0.0, -nearest_body(step, begin, strand.x[i], round).distance) +
                         std::abs(round.one(8.0 * glm::length(strand.x[i])));
             if (step.wind) // places are up to 256 cells
                 wind[i] = wind_at(strand.x[i], step.info) +

@@ -23,9 +23,11 @@ struct DirectStrands : Strands
     std::vector<Vec> root_normal;   // [strand], in the head's frame
 };
 
-struct Sphere
+// All within a radius of a stretch, which for a sphere has no length.
+struct Round
 {
-    Vec center; // in the head's frame, or in the world
+    Vec center; // one end, in the head's frame or in the world
+    Vec axis;   // to the other
     double radius;
     bool on_head;
 };
@@ -35,7 +37,9 @@ struct Sphere
 struct DirectStep
 {
     bool bending = false, curled = false, wind = false, repulsion = false;
-    std::vector<Sphere> bodies;
+    std::vector<Round> bodies;
+    bool on_grid = false; // a distance grid stands for the head; `info` places it
+    Body grid;
     std::vector<Vec> gradient; // per voxel, in fixed-point units a voxel
     HairParams params;         // as the device reads them
     StepInfo info = {};

@@ -24,7 +24,7 @@ static Vec to_head(const StepInfo& info, Vec v)
 
 // ---- light: Bertails et al. 2005 ---------------------------------------------------------------------------------
 
-std::vector<double> depth_in_bodies(const std::vector<float4>& colliders, int resolution, const StepInfo& info)
+std::vector<double> depth_in_bodies(const std::vector<Capsule>& colliders, int resolution, const StepInfo& info)
 {
     std::vector<double> depth;
     const double voxel = info.grid_corner.w;
@@ -34,10 +34,23 @@ std::vector<double> depth_in_bodies(const std::vector<float4>& colliders, int re
             {
                 const Vec center = xyz(info.grid_corner) + voxel * (Vec(x, y, z) + 0.5);
                 double deepest = -1e9;
-                for (const float4& sphere : colliders)
-                    deepest = std::max(deepest, sphere.w / voxel - 0.7 - glm::distance(center, xyz(sphere)) / voxel);
+                for (const Capsule& c : colliders)
+                    deepest = std::max(deepest,
+                                       (c.center.w - glm::distance(center, nearest_on_axis(c, center))) / voxel - 0.7);
                 depth.push_back(deepest);
             }
+    return depth;
+}
+
+std::vector<double> depth_in_head(const Body& body, int resolution, const StepInfo& info)
+{
+    std::vector<double> depth;
+    const double voxel = info.grid_corner.w;
+    for (int z = 0; z < resolution; ++z)
+        for (int y = 0; y < resolution; ++y)
+            for (int x = 0; x < resolution; ++x)
+                depth.push_back(
+                    -plane_at(body, xyz(info.grid_corner) + voxel * (Vec(x, y, z) + 0.5), info).distance / voxel - 0.7);
     return depth;
 }
 
@@ -136,14 +149,14 @@ double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams&
 }
 
 // Along the mean of the ways out of the spheres that hold it, weighed by squared depth, until no sphere holds it.
-Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
+Vec out_of_union(Vec p, const std::vector<Capsule>& colliders, double room)
 {
     double weights = 0.0;
     Vec way(0.0);
-    for (const float4& sphere : colliders)
+    for (const Capsule& collider : colliders)
     {
-        const Vec out = p - xyz(sphere);
-        const double radius = sphere.w + room, distance = glm::length(out);
+        const Vec out = p - nearest_on_axis(collider, p);
+        const double radius = collider.center.w + room, distance = glm::length(out);
         if (distance >= radius)
             continue;
         const double weight = (radius - distance) * (radius - distance);
@@ -157,10 +170,10 @@ Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
     for (bool moved = true; moved;)
     {
         moved = false;
-        for (const float4& sphere : colliders)
+        for (const Capsule& collider : colliders)
         {
-            const Vec out = p + t * direction - xyz(sphere);
-            const double radius = sphere.w + room;
+            const Vec at = p + t * direction, out = at - nearest_on_axis(collider, at);
+            const double radius = collider.center.w + room;
             if (glm::length(out) > radius - 1e-9) // on the surface is outside
                 continue;
             const double b = glm::dot(out, direction);
@@ -171,8 +184,69 @@ Vec out_of_union(Vec p, const std::vector<float4>& colliders, double room)
     return p + t * direction;
 }
 
+static Vec way_out(const Body& body, Vec p, const StepInfo& info)
+{
+    Vec out(0.0);
+    for (const auto& corner : body_corners(p, info, 2).at)
+        out += corner.weight * Vec(body.way[corner.sample]);
+    return glm::normalize(to_world(info, out));
+}
+
+// The way that the grid says, trilinear, as far as the surface there says; what that does not bring out goes along the
+// normal.
+Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info)
+{
+    const double voxel = info.body_corner.w;
+    Vec way(0.0);
+    for (int taken = 0; taken < 5; ++taken)
+    {
+        const Plane plane = plane_at(body, p, info);
+        const double within = room - plane.distance;
+        if (within <= 0.01 * voxel)
+            break;
+        if (taken == 0)
+            way = way_out(body, p, info);
+        if (taken >= 3)
+            way = plane.normal;
+        p += way * (within / std::max(0.5, glm::dot(way, plane.normal)));
+        if (within <= 0.25 * voxel)
+            break;
+    }
+    return p;
+}
+
+static Vec out_of_all(Vec p, const std::vector<Capsule>& colliders, const Body& body, double room, const StepInfo& info)
+{
+    if (body.distance.empty())
+        return out_of_union(p, colliders, room);
+    const Vec there = out_of_body(p, body, room, info);
+    Vec out = out_of_union(there, colliders, room);
+    if (out == there)
+        return out;
+    const Vec way = glm::normalize(way_out(body, out, info) + glm::normalize(out - there));
+    for (int taken = 0; taken < 8; ++taken)
+    {
+        const Plane plane = plane_at(body, out, info);
+        const double within = room - plane.distance;
+        if (within <= 0.01 * info.body_corner.w)
+            return out;
+        double go = within / std::max(0.5, glm::dot(way, plane.normal));
+        for (const Capsule& collider : colliders)
+        {
+            // Out of the sphere that the collider is to the point.
+            const Vec from = out - nearest_on_axis(collider, out + go * way);
+            const double radius = collider.center.w + room;
+            if (glm::length(from + go * way) < radius)
+                go = -glm::dot(from, way) +
+                     std::sqrt(std::pow(glm::dot(from, way), 2.0) + radius * radius - glm::dot(from, from));
+        }
+        out += go * way;
+    }
+    return out_of_body(out, body, room, info);
+}
+
 static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, const HairParams& params,
-                                 const std::vector<float4>& colliders, const StepInfo& info)
+                                 const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
 {
     const int n = int(node.size());
     std::vector<Vec> out = node;
@@ -184,13 +258,13 @@ static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand
         curve_weights(3, at - i, w);
         const Vec cut = w[0] * node[size_t(i - 1)] + w[1] * node[size_t(i)] + w[2] * node[size_t(i + 1)] +
                         w[3] * node[size_t(std::min(i + 2, n - 1))];
-        out[size_t(k)] = out_of_union(cut, colliders, room_at(k, n, strand, params, info));
+        out[size_t(k)] = out_of_all(cut, colliders, body, room_at(k, n, strand, params, info), info);
     }
     return out;
 }
 
 std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                   const std::vector<float4>& colliders, const StepInfo& info)
+                                   const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
 {
     const int n = guides.nodes;
     const int of[3] = {strand.guide0, strand.guide1, strand.guide2};
@@ -212,11 +286,11 @@ std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& str
         for (int g = 0; g < 3; ++g)
             node[size_t(k)] +=
                 weight[g] * (guides.position[size_t(of[g] * n + k)] - guides.position[size_t(of[g] * n + 1)]);
-    return finished(node, strand, params, colliders, info);
+    return finished(node, strand, params, colliders, info, body);
 }
 
 std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                    const std::vector<float4>& colliders, const StepInfo& info)
+                                    const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
 {
     const int n = guides.nodes;
     const glm::dquat turn =
@@ -228,7 +302,7 @@ std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& st
         const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - center;
         node.push_back(to_world(info, turn * own + center));
     }
-    return finished(node, strand, params, colliders, info);
+    return finished(node, strand, params, colliders, info, body);
 }
 
 std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInfo& info)

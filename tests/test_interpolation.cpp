@@ -72,6 +72,7 @@ TEST(Interpolation, WithoutCopiesEachNodeIsTheBarycentricMixOfItsGuides)
     for (int i = 0; i < 40; ++i)
         hair.simulation.step(hair.simulation.hand());
     hair.simulation.solver().set_colliders({});
+    hair.simulation.solver().set_body({});
     hair.read_back();
     ASSERT_EQ(hair.groom().drawn_multi, 500);
     double worst = 0.0, off_scalp = 0.0;
@@ -113,6 +114,7 @@ TEST(Interpolation, WithCopiesOnlyEachIsItsGuideTurnedAboutTheHeadsCentre)
     for (int i = 0; i < 40; ++i)
         hair.simulation.step(hair.simulation.hand());
     hair.simulation.solver().set_colliders({});
+    hair.simulation.solver().set_body({});
     hair.read_back();
     ASSERT_EQ(hair.groom().drawn_multi, 0);
     const Vec center = hair.simulation.solver().head().turn * Vec(hair.groom().center);
@@ -142,6 +144,7 @@ TEST(Interpolation, StrandsAreCutToBetweenTheLeastLengthAndTheWhole)
 {
     Hair hair(style_of({"interpolation.layer=0", "strand.length_variation=0.6"}));
     hair.simulation.solver().set_colliders({});
+    hair.simulation.solver().set_body({});
     hair.read_back();
     double shortest = 1.0, longest = 0.0;
     for (size_t s = 0; s < hair.groom().drawn.size(); ++s)
@@ -179,14 +182,19 @@ double worst_intrusion(const Hair& hair, bool with_waves)
 {
     const HairParams params = device_params(hair.simulation.style().params);
     double worst = 0.0;
+    const auto& grid = hair.simulation.solver().body().grid;
+    const oracle::Body body = grid ? oracle::body_of(*grid) : oracle::Body{};
     for (size_t s = 0; s < hair.groom().drawn.size(); ++s)
         for (int k = 2; k < hair.nodes; ++k)
         {
             const double room = with_waves ? oracle::room_at(k, hair.nodes, hair.groom().drawn[s], params,
                                                              hair.simulation.solver().info())
                                            : 0.0;
-            for (const float4& c : hair.simulation.solver().placed_colliders())
-                worst = std::max(worst, c.w + room - glm::distance(hair.node(s, k), Vec(c.x, c.y, c.z)));
+            const Vec p = hair.node(s, k);
+            for (const Capsule& c : hair.simulation.solver().placed_colliders())
+                worst = std::max(worst, c.center.w + room - glm::distance(p, oracle::nearest_on_axis(c, p)));
+            if (!body.distance.empty())
+                worst = std::max(worst, room - oracle::plane_at(body, p, hair.simulation.solver().info()).distance);
         }
     return worst;
 }

@@ -28,12 +28,13 @@ struct Field
 // clang-format off
 #define STEP_FIELDS(X)                                                                                                 \
     X(head_row0) X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity)      \
-    X(head_center) X(wind) X(gust_origin) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain) X(gravity)      \
-    X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(bend_droop) X(bend_modulus) X(bend_most)        \
-    X(turning_rate) X(tip_mass) X(acceleration) X(push_out) X(guides) X(drawn_multi) X(drawn) X(colliders)             \
-    X(head_colliders) X(teleport) X(last_substep) X(body_density) X(density_stride) X(density_unit)                    \
-    X(sweep_axis) X(sweep_from) X(sweep_sign)
+    X(head_center) X(wind) X(gust_origin) X(body_corner) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain)  \
+    X(gravity) X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(bend_droop) X(bend_modulus)          \
+    X(bend_most) X(turning_rate) X(tip_mass) X(acceleration) X(push_out) X(guides) X(drawn_multi) X(drawn)             \
+    X(colliders) X(head_colliders) X(teleport) X(last_substep) X(body_density) X(density_stride) X(density_unit)       \
+    X(sweep_axis) X(sweep_from) X(sweep_sign) X(body_x) X(body_y) X(body_z)
 #define PATH_FIELDS(X) X(row) X(drag)
+#define CAPSULE_FIELDS(X) X(center) X(axis)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
 // clang-format on
 
@@ -52,9 +53,11 @@ std::vector<Field> all_fields()
 #define STEP_FIELD(name) fields.push_back({"StepInfo", #name, int(offsetof(StepInfo, name))});
 #define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
 #define PATH_FIELD(name) fields.push_back({"StepPath", #name, int(offsetof(StepPath, name))});
+#define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
     STEP_FIELDS(STEP_FIELD)
     PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
+    CAPSULE_FIELDS(CAPSULE_FIELD)
     return fields;
 }
 
@@ -74,10 +77,10 @@ std::vector<std::string> members_in_text(const std::string& text, const std::str
     return names;
 }
 
-TEST(Layout, TheTestKnowsEveryFieldOfTheContract)
+TEST(Layout, TheTestKnowsEveryFieldOfTheStructs)
 {
     const std::string text = read_file(data_folder() / "kernels" / "shared.h");
-    for (const std::string type : {"StepInfo", "StepPath", "DrawnStrand"})
+    for (const std::string type : {"StepInfo", "StepPath", "DrawnStrand", "Capsule"})
     {
         std::vector<std::string> known;
         for (const Field& field : all_fields())
@@ -95,7 +98,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand"})
+    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -106,14 +109,15 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         fs::copy_file(data_folder() / "kernels" / header, folder / header);
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
-                                            "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n" +
+                                            "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n"
+                                            "    Capsule Capsule_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 4, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 5, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 4);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 5);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
@@ -121,6 +125,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     EXPECT_EQ(offset[fields.size() + 1], int(sizeof(StepInfo)));
     EXPECT_EQ(offset[fields.size() + 2], int(sizeof(StepPath)));
     EXPECT_EQ(offset[fields.size() + 3], int(sizeof(DrawnStrand)));
+    EXPECT_EQ(offset[fields.size() + 4], int(sizeof(Capsule)));
 }
 
 // A program whose only purpose is to make a uniform block active.

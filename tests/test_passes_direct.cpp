@@ -26,6 +26,7 @@ struct Case
     void (*change)(HairParams&);
     double seconds_before = 1.0 / 60.0;
     double turning_rate = 0.0, bend_most = 1e30;
+    bool grid = false; // stands for the head, with contact
     bool density() const { return repulsion; }
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -61,14 +62,21 @@ class DirectPass : public testing::TestWithParam<Case>
         step.seconds_before = c.seconds_before;
         step.tip_mass = groom.tip_mass;
         step.reach = glm::length(glm::dvec3(groom.middle)) + double(groom.farthest);
-        if (c.contact)
-            step.bodies = {{glm::dvec3(groom.center), 0.1f, true}};
+        PlacedGrid placed;
+        if (c.grid)
+        {
+            placed = {lumpy_body(), 1.1f, {0.005f, -0.01f, 0.0f}};
+            step.on_grid = true;
+            step.grid = oracle::body_of(*placed.grid);
+        }
+        else if (c.contact)
+            step.bodies = {{glm::dvec3(groom.center), Vec(0.0), 0.1f, true}};
         for (int i = 0; c.contact && i < 6; ++i) // some make creases with the large one
             step.bodies.push_back(
-                {rounded((i < 3 ? 0.115 : 0.15) * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)), 0.03f,
-                 i % 2 == 1});
-        step.info =
-            make_step_info(params, groom, step.before, step.head_velocity, step.now, int(step.bodies.size()), true);
+                {rounded((i < 3 ? 0.115 : 0.15) * random.direction() + (i % 2 ? Vec(0.0) : step.before.origin)),
+                 i < 4 ? Vec(0.0) : rounded(random.vector(0.1)), 0.03f, i % 2 == 1});
+        step.info = make_step_info(params, groom, step.before, step.head_velocity, step.now, int(step.bodies.size()),
+                                   true, placed);
         step.teleport = step.info.teleport;
         ASSERT_EQ(step.teleport, c.teleport);
         path = make_step_path(params, step.before, step.now, step.teleport, step.seconds_before);
@@ -77,7 +85,7 @@ class DirectPass : public testing::TestWithParam<Case>
         curls.bend_most = c.bend_most;
         set_direct(step.info, path, groom, curls,
                    int(std::count_if(step.bodies.begin(), step.bodies.end(),
-                                     [](const oracle::Sphere& s) { return s.on_head; })));
+                                     [](const oracle::Round& body) { return body.on_head; })));
         const size_t voxels = 20 * 20 * 20;
         for (size_t i = 0; c.repulsion && i < voxels; ++i)
             step.gradient.push_back(rounded(random.vector(40.0 * 4096.0)));
@@ -149,18 +157,20 @@ class DirectPass : public testing::TestWithParam<Case>
             for (const Vec& v : step.gradient)
                 slopes.push_back(float(v[axis]));
         slopes.resize(std::max<size_t>(slopes.size(), 1));
-        std::vector<float4> bodies;
+        std::vector<Capsule> bodies;
         for (const bool on_head : {true, false})
-            for (const oracle::Sphere& sphere : step.bodies)
-                if (sphere.on_head == on_head)
+            for (const oracle::Round& body : step.bodies)
+                if (body.on_head == on_head)
                 {
-                    const Vec at = sphere.center - (on_head      ? Vec(0.0)
-                                                    : c.teleport ? step.now.head.origin
-                                                                 : step.before.origin);
-                    bodies.push_back(F4(float(at.x), float(at.y), float(at.z), float(sphere.radius)));
-                    bodies.push_back(F4(0.0f, 0.0f, 0.0f, 0.0f));
+                    const Vec at = body.center - (on_head      ? Vec(0.0)
+                                                  : c.teleport ? step.now.head.origin
+                                                               : step.before.origin);
+                    const double squared = glm::dot(body.axis, body.axis);
+                    bodies.push_back({F4(float(at.x), float(at.y), float(at.z), float(body.radius)),
+                                      F4(float(body.axis.x), float(body.axis.y), float(body.axis.z),
+                                         squared > 0.0 ? float(1.0 / squared) : 0.0f)});
                 }
-        bodies.resize(std::max<size_t>(bodies.size(), 2));
+        bodies.resize(std::max<size_t>(bodies.size(), 1));
         const auto points = [&](const std::vector<Vec>& values)
         { return filled(device, to_blocks(values, c.strands, c.nodes)); };
         return {{"position", points(state.position)},
@@ -182,6 +192,7 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"bodies", filled(device, bodies)},
+                {"body_distance", filled(device, step.on_grid ? step.grid.distance : std::vector<float>(1))},
                 {"path", filled(device, path)},
                 {"params", filled(device, step.params)},
                 {"info", filled(device, step.info)}};
@@ -192,9 +203,10 @@ class DirectPass : public testing::TestWithParam<Case>
         const Case& c = GetParam();
         const Device device = with_width(width);
         const Buffers on_device = buffers(device);
-        const std::string features = fmt::format(
-            "{}{}{}{}{}{}", c.bending ? "-D BENDING " : "", c.curled ? "-D CURLED " : "", c.wind ? "-D WIND " : "",
-            c.repulsion ? "-D REPULSION " : "", c.contact ? "-D CONTACT " : "", c.density() ? "-D DENSITY " : "");
+        const std::string features =
+            fmt::format("{}{}{}{}{}{}{}", c.bending ? "-D BENDING " : "", c.curled ? "-D CURLED " : "",
+                        c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "", c.contact ? "-D CONTACT " : "",
+                        c.grid ? "-D BODY_GRID " : "", c.density() ? "-D DENSITY " : "");
         Kernel kernel = load_kernel(device, "simulate_direct", pass_options(device, c.nodes, 20, features));
         run(device, kernel, on_device, cl::NDRange(size_t(groom.blocks) * 16 / size_t(width)));
         return on_device;
@@ -437,17 +449,21 @@ void floor_of_4(HairParams& p)
 
 INSTANTIATE_TEST_SUITE_P(
     All, DirectPass,
-    testing::Values(Case{"everything", 16, 16, 235, true, true, true, true, true, false, curls},
-                    Case{"everything_8_wide", 8, 16, 230, true, true, true, true, true, false, curls, 1.0 / 120.0},
-                    Case{"everything_1_wide", 1, 16, 101, true, true, true, true, true, false, nullptr},
-                    Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls, 1.0 / 60.0, 300.0, 2e5},
-                    Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
-                    Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},
-                    Case{"strands_of_3", 16, 3, 101, true, false, true, false, false, false, nullptr},
-                    Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm, 1.0 / 60.0,
-                         200.0},
-                    Case{"strands_of_33", 16, 33, 97, true, true, false, false, false, false, floor_of_4},
-                    Case{"strands_of_33_8_wide", 8, 33, 97, false, false, false, false, true, false, nullptr}),
+    testing::Values(
+        Case{"everything", 16, 16, 235, true, true, true, true, true, false, curls},
+        Case{"everything_8_wide", 8, 16, 230, true, true, true, true, true, false, curls, 1.0 / 120.0},
+        Case{"everything_1_wide", 1, 16, 101, true, true, true, true, true, false, nullptr},
+        Case{"on_a_grid", 16, 16, 235, true, true, true, true, true, false, curls, 1.0 / 60.0, 0.0, 1e30, true},
+        Case{"on_a_grid_8_wide", 8, 9, 230, true, false, false, false, true, false, curls, 1.0 / 60.0, 0.0, 1e30, true},
+        Case{"on_a_grid_1_wide", 1, 16, 101, true, true, false, false, true, true, nullptr, 1.0 / 60.0, 0.0, 1e30,
+             true},
+        Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls, 1.0 / 60.0, 300.0, 2e5},
+        Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
+        Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},
+        Case{"strands_of_3", 16, 3, 101, true, false, true, false, false, false, nullptr},
+        Case{"strands_of_4_1_wide", 1, 4, 470, true, true, false, false, true, false, calm, 1.0 / 60.0, 200.0},
+        Case{"strands_of_33", 16, 33, 97, true, true, false, false, false, false, floor_of_4},
+        Case{"strands_of_33_8_wide", 8, 33, 97, false, false, false, false, true, false, nullptr}),
     [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace

@@ -24,6 +24,7 @@ struct Case
     int width, nodes, resolution, guides, drawn;
     bool shadow, bodies;
     void (*change)(HairParams&);
+    bool body = false;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -47,7 +48,17 @@ class DrawnPasses : public testing::TestWithParam<Case>
         for (int i = 0; c.bodies && i < 40; ++i) // some far away, many overlapping
             spheres.push_back(
                 {glm::vec3(random.direction() * random.in(0.0, 0.3)), float(random.in(0.01, 0.06)), true});
+        for (int i = 0; c.bodies && i < 4; ++i)
+        {
+            const glm::vec3 at(random.direction() * random.in(0.0, 0.2));
+            spheres.push_back({at, float(random.in(0.01, 0.04)), true, at + glm::vec3(0.1 * random.direction())});
+        }
         solver->set_colliders(spheres);
+        if (c.body)
+        {
+            solver->set_body({lumpy_body(), 0.8f, {0.0f, 0.01f, 0.0f}});
+            body = oracle::body_of(*solver->body().grid);
+        }
         colliders = solver->placed_colliders();
 
         guides.nodes = c.nodes;
@@ -85,7 +96,8 @@ class DrawnPasses : public testing::TestWithParam<Case>
     HairParams params, read_params; // authored, and as the device reads them
     Groom groom;
     std::unique_ptr<Solver> solver;
-    std::vector<float4> colliders;
+    std::vector<Capsule> colliders;
+    oracle::Body body;
     oracle::Strands guides;
     std::vector<float4> position, frame;
 };
@@ -96,7 +108,8 @@ TEST_P(DrawnPasses, NodesLieWhereTheTwinPutsThem)
     for (size_t s = 0; s < groom.drawn.size(); ++s)
     {
         const auto make = int(s) < groom.drawn_multi ? oracle::interpolate_multi : oracle::interpolate_single;
-        const std::vector<oracle::Vec> expected = make(guides, groom.drawn[s], read_params, colliders, solver->info());
+        const std::vector<oracle::Vec> expected =
+            make(guides, groom.drawn[s], read_params, colliders, solver->info(), body);
         for (int k = 0; k < groom.nodes; ++k)
         {
             const double error = glm::distance(node(s, k), expected[size_t(k)]);
@@ -109,7 +122,9 @@ TEST_P(DrawnPasses, NodesLieWhereTheTwinPutsThem)
     // nearly along its surface that the root of the rounding counts.
     EXPECT_LE(errors[errors.size() / 2], 2e-7);
     EXPECT_LE(errors[errors.size() * 99 / 100], 5e-6);
-    EXPECT_LE(errors[errors.size() * 999 / 1000], 1e-4);
+    // Out of the head's grid rounding may decide whether a last step is needed that is worth a fraction of a
+    // millimetre.
+    EXPECT_LE(errors[errors.size() * 999 / 1000], GetParam().body ? 3e-4 : 1e-4);
     EXPECT_LE(errors.back(), GetParam().bodies ? 2e-3 : 1e-6);
 }
 
@@ -189,7 +204,10 @@ INSTANTIATE_TEST_SUITE_P(All, DrawnPasses,
                                          Case{"free_and_unshaded", 16, 33, 8, 17, 101, false, false, nullptr},
                                          Case{"of_33", 8, 33, 64, 40, 300, true, true, from_the_side},
                                          Case{"of_3", 16, 3, 8, 1, 17, true, true, waves},
-                                         Case{"of_5_unshaded", 16, 5, 20, 30, 200, false, true, nullptr}),
+                                         Case{"of_5_unshaded", 16, 5, 20, 30, 200, false, true, nullptr},
+                                         Case{"on_a_grid", 16, 16, 64, 100, 500, true, false, nullptr, true},
+                                         Case{"on_a_grid_8_wide", 8, 16, 20, 40, 300, true, true, waves, true},
+                                         Case{"on_a_grid_1_wide", 1, 9, 20, 40, 200, false, true, nullptr, true}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace

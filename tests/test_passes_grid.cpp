@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
 
@@ -97,14 +98,15 @@ TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInsideWithSoftEdges)
 {
     HairParams params;
     const StepInfo info = lit_info(random, resolution, {0.0, 1.0, 0.0}, params);
-    std::vector<float4> colliders;
+    std::vector<Capsule> colliders;
     for (int i = 0; i < 12; ++i) // some reach over the grid's border; one is smaller than a voxel, one larger
     {
         const glm::dvec3 at = random.vector(0.3);
-        colliders.push_back(F4(float(at.x), float(at.y), float(at.z),
-                               float(i == 0   ? 1e-4
-                                     : i == 1 ? 3.0 * info.grid_corner.w
-                                              : random.in(0.01, 0.15))));
+        colliders.push_back(capsule(at,
+                                    i == 0   ? 1e-4
+                                    : i == 1 ? 3.0 * double(info.grid_corner.w)
+                                             : random.in(0.01, 0.15),
+                                    i % 3 ? glm::dvec3(0.0) : random.vector(0.3)));
     }
     const std::vector<int> density = random_density(100);
     const Buffers buffers = {{"occupied", filled(device, density)},
@@ -127,6 +129,38 @@ TEST_P(GridPasses, BodiesFillTheVoxelsWhoseCentresLieInsideWithSoftEdges)
     EXPECT_LE(worst, 1.0 + 3e-5 * info.body_density);
     EXPECT_GT(inside, 0);
     EXPECT_GT(edge, 0);
+}
+
+TEST_P(GridPasses, TheHeadFillsTheVoxelsWhoseCentresLieInsideWithSoftEdges)
+{
+    HairParams params;
+    StepInfo info = lit_info(random, resolution, {0.0, 1.0, 0.0}, params);
+    const Groom groom = random_groom(random, 20, 16, 100);
+    Substep now;
+    now.head.turn = glm::angleAxis(1.0, random.direction());
+    const PlacedGrid placed = {lumpy_body(), 1.5f, {0.0f, 0.03f, 0.0f}};
+    info = make_step_info(params, groom, now.head, glm::dvec3(0.0), now, 0, true, placed);
+    const oracle::Body body = oracle::body_of(*placed.grid);
+    const std::vector<int> density = random_density(100);
+    const Buffers buffers = {{"occupied", filled(device, density)},
+                             {"body_distance", filled(device, body.distance)},
+                             {"info", filled(device, info)}};
+    launch("add_head", buffers,
+           cl::NDRange((size_t(resolution) + size_t(device.width) - 1) / size_t(device.width), size_t(resolution),
+                       size_t(resolution)));
+    const std::vector<int> occupied = read<int>(device, buffers.at("occupied"), voxels);
+    const std::vector<double> depth = oracle::depth_in_head(body, resolution, info);
+    int inside = 0;
+    double worst = 0.0;
+    for (size_t i = 0; i < voxels; ++i)
+    {
+        const double share = std::clamp(depth[i] + 0.5, 0.0, 1.0);
+        worst = std::max(worst,
+                         std::abs(occupied[i] - std::max(double(density[i]), std::floor(share * info.body_density))));
+        inside += share == 1.0;
+    }
+    EXPECT_LE(worst, 1.0 + 3e-5 * info.body_density);
+    EXPECT_EQ(inside > 0, resolution > 8); // voxels of 10 cm are too large for it
 }
 
 TEST_P(GridPasses, TransmittanceIsTheTwinsFromEverySide)

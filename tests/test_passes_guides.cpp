@@ -23,6 +23,7 @@ struct Case
     int width, nodes, resolution, strands;
     bool wind, repulsion, density, teleport;
     void (*change)(HairParams&);
+    bool body = false;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -41,12 +42,17 @@ class SimulatePass : public testing::TestWithParam<Case>
         params = device_params(params);
         groom = random_groom(random, c.strands, c.nodes, 10);
 
+        if (c.body)
+        {
+            placed = {lumpy_body(), 1.1f, {0.005f, -0.01f, 0.0f}};
+            body = oracle::body_of(*placed.grid);
+        }
         before.origin = random.vector(2.0);
         before.turn = glm::angleAxis(random.in(-3.0, 3.0), random.direction());
         now.head.origin = before.origin + random.vector(c.teleport ? 5.0 : 0.02);
         now.head.turn = glm::angleAxis(c.teleport ? 2.0 : 0.05, random.direction()) * before.turn;
         now.time = 3.7;
-        info = make_step_info(params, groom, before, {0.4, -0.2, 0.7}, now, 7, true);
+        info = make_step_info(params, groom, before, {0.4, -0.2, 0.7}, now, 9, true, placed);
         ASSERT_EQ(bool(info.teleport), c.teleport);
 
         // Strands that hang together, but bent, stretched by up to a third and on the move.
@@ -70,8 +76,10 @@ class SimulatePass : public testing::TestWithParam<Case>
         for (int i = 0; i < 7; ++i) // one large in the middle, others among the strands
         {
             const glm::dvec3 at = i == 0 ? glm::dvec3(0.0) : 0.15 * random.direction();
-            colliders.push_back(F4(float(at.x), float(at.y), float(at.z), i == 0 ? 0.1f : 0.03f));
+            colliders.push_back(capsule(at, i == 0 ? 0.1 : 0.03));
         }
+        for (int i = 0; i < 2; ++i)
+            colliders.push_back(capsule(0.15 * random.direction(), 0.02, 0.1 * random.direction()));
         const size_t voxels = size_t(c.resolution) * size_t(c.resolution) * size_t(c.resolution);
         for (size_t i = 0; i < voxels; ++i)
             gradient.push_back(rounded(random.vector(3.0 * 4096.0)));
@@ -96,6 +104,7 @@ class SimulatePass : public testing::TestWithParam<Case>
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"colliders", filled(device, colliders)},
+                {"body_distance", filled(device, c.body ? body.distance : std::vector<float>(1))},
                 {"params", filled(device, params)},
                 {"info", filled(device, info)}};
     }
@@ -103,8 +112,9 @@ class SimulatePass : public testing::TestWithParam<Case>
     void simulate(const Device& device, const Buffers& buffers) const
     {
         const Case& c = GetParam();
-        const std::string features = fmt::format("{}{}{}", c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "",
-                                                 c.density ? "-D DENSITY " : "");
+        const std::string features =
+            fmt::format("{}{}{}{}", c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "",
+                        c.density ? "-D DENSITY " : "", c.body ? "-D BODY_GRID " : "");
         Kernel kernel = load_kernel(device, "simulate_pbd", pass_options(device, c.nodes, c.resolution, features));
         run(device, kernel, buffers, cl::NDRange(size_t(groom.blocks) * 16 / size_t(device.width)));
     }
@@ -116,7 +126,9 @@ class SimulatePass : public testing::TestWithParam<Case>
     Substep now;
     StepInfo info = {};
     oracle::Strands state;
-    std::vector<float4> colliders;
+    std::vector<Capsule> colliders;
+    PlacedGrid placed;
+    oracle::Body body;
     std::vector<oracle::Vec> gradient;
 };
 
@@ -133,7 +145,8 @@ TEST_P(SimulatePass, MovesTheGuidesAsTheTwinDoes)
     const auto twin = [&](const std::function<oracle::Vec()>& rounding)
     {
         oracle::Strands strands = state;
-        oracle::simulate_pbd(strands, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info, rounding);
+        oracle::simulate_pbd(strands, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info, rounding,
+                             body);
         return strands;
     };
     const auto deviation = [&](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
@@ -246,7 +259,7 @@ TEST_P(SimulatePass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
     EXPECT_EQ(read<int>(device, sound.at("resets"), size_t(c.strands)), std::vector<int>(size_t(c.strands), 0));
 
     // The twin resets to the same shape.
-    oracle::simulate_pbd(state, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info);
+    oracle::simulate_pbd(state, {c.wind, c.repulsion}, gradient, c.resolution, colliders, params, info, {}, body);
     const auto position = from_blocks(read<float>(device, ill.at("position"), values), c.strands, c.nodes);
     for (int k = 0; k < c.nodes; ++k)
         EXPECT_LE(glm::distance(position[size_t(bad * c.nodes + k)], state.position[size_t(bad * c.nodes + k)]), 1e-6);
@@ -271,19 +284,22 @@ void brush(HairParams& p)
 void calm_gusts(HairParams& p) { p.forces_turbulence = 0.0f; }
 void one_sweep(HairParams& p) { p.solver_iterations = 1; }
 
-INSTANTIATE_TEST_SUITE_P(All, SimulatePass,
-                         testing::Values(Case{"everything", 16, 16, 64, 248, true, true, true, false, nullptr},
-                                         Case{"everything_8_wide", 8, 16, 64, 17, true, true, true, false, brush},
-                                         Case{"everything_1_wide", 1, 16, 64, 17, true, true, true, false, nullptr},
-                                         Case{"nothing_but_gravity", 16, 16, 64, 248, false, false, false, false, limp},
-                                         Case{"one_strand_of_3", 16, 3, 8, 1, true, false, true, false, nullptr},
-                                         Case{"strands_of_5", 16, 5, 20, 17, false, true, false, false, rubber},
-                                         Case{"strands_of_5_in_light", 1, 5, 20, 33, false, false, true, true,
-                                              one_sweep},
-                                         Case{"strands_of_33", 16, 33, 20, 17, true, false, false, false, calm_gusts},
-                                         Case{"strands_of_33_8_wide", 8, 33, 8, 50, false, true, true, true, nullptr},
-                                         Case{"a_leap", 16, 16, 64, 40, true, true, true, true, brush}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, SimulatePass,
+    testing::Values(Case{"everything", 16, 16, 64, 248, true, true, true, false, nullptr},
+                    Case{"everything_8_wide", 8, 16, 64, 17, true, true, true, false, brush},
+                    Case{"everything_1_wide", 1, 16, 64, 17, true, true, true, false, nullptr},
+                    Case{"nothing_but_gravity", 16, 16, 64, 248, false, false, false, false, limp},
+                    Case{"one_strand_of_3", 16, 3, 8, 1, true, false, true, false, nullptr},
+                    Case{"strands_of_5", 16, 5, 20, 17, false, true, false, false, rubber},
+                    Case{"strands_of_5_in_light", 1, 5, 20, 33, false, false, true, true, one_sweep},
+                    Case{"strands_of_33", 16, 33, 20, 17, true, false, false, false, calm_gusts},
+                    Case{"strands_of_33_8_wide", 8, 33, 8, 50, false, true, true, true, nullptr},
+                    Case{"a_leap", 16, 16, 64, 40, true, true, true, true, brush},
+                    Case{"on_a_grid", 16, 16, 64, 100, true, true, true, false, nullptr, true},
+                    Case{"on_a_grid_8_wide", 8, 16, 20, 33, false, false, true, false, brush, true},
+                    Case{"on_a_grid_1_wide", 1, 9, 20, 17, true, false, false, true, limp, true}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace
 } // namespace coif

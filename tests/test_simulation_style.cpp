@@ -1,6 +1,7 @@
 // What a change of the style does to hair that is alive: no slider is dead, none acts late, and a change that fails is
 // none.
 #include "sim/error.h"
+#include "sim/health.h"
 #include "sim/simulation.h"
 #include "tests/on_device.h"
 
@@ -73,11 +74,15 @@ void set_other(Hairstyle& style, const ParamInfo& info)
 
 TEST(Style, EverySliderThatActsOnTheHairActsInTheNextStep)
 {
-    // Of these the hair knows nothing: where the head's mesh is drawn, and what only the shaders read of a wave. There
-    // is one way yet to choose guides.
-    const std::set<std::string> elsewhere = {"head.mesh_scale",          "wave.normal_frequency",
-                                             "wave.normal_randomness",   "wave.binormal_frequency",
-                                             "wave.binormal_randomness", "interpolation.guides"};
+    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
+    // the shaders read of a wave. There is one way yet to choose guides.
+    const std::set<std::string> elsewhere = {"head.mesh_scale",
+                                             "wave.normal_frequency",
+                                             "wave.normal_randomness",
+                                             "wave.binormal_frequency",
+                                             "wave.binormal_randomness",
+                                             "interpolation.guides",
+                                             "head.contact"};
     struct Settled
     {
         std::vector<uint8_t> position, velocity;
@@ -178,10 +183,72 @@ TEST(Style, AChangeThatFailsLeavesEverythingAsItWas)
     }
 }
 
+TEST(Style, TheHeadsMeshOrItsSpheresStandForIt)
+{
+    const auto placed = [](std::initializer_list<const char*> sets)
+    {
+        Hairstyle style;
+        assign(style, "interpolation.strands=60");
+        for (const char* set : sets)
+            assign(style, set);
+        style.host.colliders = {{{1.0f, 0.0f, 0.0f}, 0.1f, false, glm::vec3(1.0f, 0.5f, 0.0f)}};
+        const Simulation simulation(test_device(), style);
+        return std::pair(simulation.solver().placed_colliders().size(), simulation.solver().body());
+    };
+    const auto [with_grid, body] = placed({"head.scale=2", "head.offset=[0.1, 0, 0]", "head.mesh_scale=0.5"});
+    EXPECT_EQ(with_grid, 1u) << "the style's own only";
+    ASSERT_TRUE(body.grid);
+    EXPECT_EQ(body.scale, 1.0f);
+    EXPECT_EQ(body.offset, glm::vec3(0.2f, 0.0f, 0.0f));
+    EXPECT_LT(distance_to(body, {0.2f, 0.0f, 0.0f}), -0.05f);
+    const auto [with_spheres, none] = placed({"head.contact=spheres"});
+    EXPECT_EQ(with_spheres, 36u);
+    EXPECT_FALSE(none.grid);
+    EXPECT_EQ(placed({"head.mesh="}).first, 36u) << "no mesh to keep out of";
+    EXPECT_EQ(placed({"head.mesh=", "head.spheres="}).first, 2u);
+
+    // Changed while it lives.
+    Simulation simulation(test_device(), Hairstyle{});
+    Hairstyle style;
+    assign(style, "head.contact=spheres");
+    simulation.set_style(style);
+    EXPECT_FALSE(simulation.solver().body().grid);
+    EXPECT_EQ(simulation.solver().placed_colliders().size(), 35u);
+    simulation.step({});
+    simulation.set_style(Hairstyle{});
+    EXPECT_TRUE(simulation.solver().body().grid);
+    simulation.step({});
+    EXPECT_EQ(simulation.solver().info().body_x, simulation.solver().body().grid->size.x);
+}
+
+TEST(Style, GuidesAndDrawnStrandsStayOutOfTheHeadWhileItMoves)
+{
+    Hairstyle style;
+    assign(style, "strand.length=0.3");
+    Simulation simulation(test_device(), style);
+    Health worst;
+    for (int i = 1; i <= 60; ++i)
+    {
+        Pose hand;
+        hand.origin = {0.1 * std::sin(0.2 * i), 0.0, 0.0};
+        hand.turn = glm::angleAxis(0.7 * std::sin(0.15 * i), glm::dvec3(0, 1, 0));
+        simulation.step(hand);
+        if (i % 5)
+            continue;
+        simulation.solver().draw();
+        const Health health = measure_health(simulation.solver(), style.params, true);
+        worst.penetration_max = std::max(worst.penetration_max, health.penetration_max);
+        worst.drawn_penetration_max = std::max(worst.drawn_penetration_max, health.drawn_penetration_max);
+        EXPECT_TRUE(health.finite);
+    }
+    EXPECT_LE(worst.penetration_max, 3e-4);
+    EXPECT_LE(worst.drawn_penetration_max, 1e-4);
+}
+
 TEST(Style, CollidersComeGoAndMoveWithTheirOwner)
 {
     Simulation simulation(test_device(), busy_style());
-    const size_t own = simulation.assets().spheres.size();
+    const size_t own = simulation.solver().placed_colliders().size();
     Hairstyle style = busy_style();
     style.host.colliders = {{{0.0f, -0.3f, 0.0f}, 0.1f, false}, {{0.1f, -0.2f, 0.0f}, 0.05f, true}};
     simulation.set_style(style);
@@ -189,10 +256,11 @@ TEST(Style, CollidersComeGoAndMoveWithTheirOwner)
     hand.origin = {0.1, 0.0, 0.0};
     hand.turn = glm::angleAxis(0.5, glm::dvec3(0, 0, 1));
     simulation.step(hand);
-    const std::vector<float4> placed = simulation.solver().placed_colliders();
+    const std::vector<Capsule> placed = simulation.solver().placed_colliders();
     ASSERT_EQ(placed.size(), own + 2);
-    EXPECT_NEAR(placed[own].x, -0.1, 1e-7) << "one in the world stays there, and the head has moved";
-    EXPECT_NEAR(placed[own + 1].x, 0.1 * std::cos(0.5) + 0.2 * std::sin(0.5), 1e-7) << "one on the head turns with it";
+    EXPECT_NEAR(placed[own].center.x, -0.1, 1e-7) << "one in the world stays there, and the head has moved";
+    EXPECT_NEAR(placed[own + 1].center.x, 0.1 * std::cos(0.5) + 0.2 * std::sin(0.5), 1e-7)
+        << "one on the head turns with it";
     style.host.colliders.clear();
     simulation.set_style(style);
     simulation.step(hand);

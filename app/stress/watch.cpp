@@ -30,31 +30,24 @@ void add(Figures& sum, const Figures& more)
         sum.fault = more.fault;
 }
 
-static double depth_in(const std::vector<float4>& bodies, glm::dvec3 p)
-{
-    double deepest = 0.0;
-    for (const float4& b : bodies)
-        deepest = std::max(deepest, double(b.w) - glm::distance(p, glm::dvec3(b.x, b.y, b.z)));
-    return deepest;
-}
-
 // The shortest straight way out of the union of all bodies, about: along the ways out of each and the axes.
-static double way_out(const std::vector<float4>& bodies, glm::dvec3 p)
+static double way_out(const std::vector<Capsule>& bodies, const Solver& solver, glm::dvec3 p)
 {
-    if (depth_in(bodies, p) <= 0.0)
+    if (depth_in(bodies, solver, p) <= 0.0)
         return 0.0;
     std::vector<glm::dvec3> ways = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (const float4& b : bodies)
+    for (const Capsule& b : bodies)
     {
-        const glm::dvec3 out = p - glm::dvec3(b.x, b.y, b.z);
-        if (glm::length(out) < b.w && glm::length(out) > 1e-9)
+        const glm::dvec3 out = p - glm::dvec3(nearest_on_axis(b, p));
+        if (glm::length(out) < b.center.w && glm::length(out) > 1e-9)
             ways.push_back(glm::normalize(out));
     }
     double shortest = INFINITY;
     for (const glm::dvec3& way : ways)
     {
         double t = 0.0;
-        for (double depth = depth_in(bodies, p); depth > 0.0 && t < shortest; depth = depth_in(bodies, p + t * way))
+        for (double depth = depth_in(bodies, solver, p); depth > 0.0 && t < shortest;
+             depth = depth_in(bodies, solver, p + t * way))
             t += depth + 1e-5;
         shortest = std::min(shortest, t);
     }
@@ -64,7 +57,8 @@ static double way_out(const std::vector<float4>& bodies, glm::dvec3 p)
 void look(Watch& watch, const Solver& solver, const HairParams& params, double seconds)
 {
     const Groom& groom = solver.groom();
-    const std::vector<float4> bodies = solver.placed_colliders();
+    const std::vector<Capsule> bodies = solver.placed_colliders();
+    const bool any = !bodies.empty() || solver.body().grid;
     const Mapped view = solver.guide_positions();
     const float* x = view.as<float>();
     Figures& worst = watch.worst;
@@ -89,11 +83,11 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
         };
         const double rest = double(groom.segment_length[size_t(g)]) * params.strand_spacing;
         const glm::dvec3 root = node(1);
-        const double out = bodies.empty() ? 0.0 : way_out(bodies, root);
+        const double out = any ? way_out(bodies, solver, root) : 0.0;
         double deepest = out;
-        if (!bodies.empty() && (first || jumped))
+        if (any && (first || jumped))
             for (int k = 2; k < groom.nodes; ++k)
-                deepest = std::max(deepest, way_out(bodies, node(k)));
+                deepest = std::max(deepest, way_out(bodies, solver, node(k)));
         double& grace = watch.grace[size_t(g)];
         if (first || jumped || out > watch.root_out[size_t(g)] + 1e-6)
             grace = std::max(grace, watch.time + deepest / kPushOut + 0.1);
@@ -116,9 +110,9 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
             worst.stretch = std::max(worst.stretch, std::isfinite(stretch) ? stretch : INFINITY);
             worst.reach =
                 std::max(worst.reach, (glm::distance(p, root) - 2.0 * out) / std::max((groom.nodes - 2) * rest, 1e-6));
-            if (watch.time > grace && !bodies.empty())
+            if (watch.time > grace && any)
             {
-                const double depth = depth_in(bodies, p);
+                const double depth = depth_in(bodies, solver, p);
                 if (depth > worst.penetration && (k - 1) * rest > 1.5 * out + 1e-3 && depth_before < 0.5 * rest)
                 {
                     worst.penetration = depth;

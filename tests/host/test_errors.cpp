@@ -108,7 +108,11 @@ TEST(BrokenStyle, is_told_with_file_line_column_and_what_would_be_right)
         {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\non = \"neck\"\n",
          "bob.toml:4:6: collider.on must be \"head\" or \"world\""},
         {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\nmass = 2\n",
-         "bob.toml:4:8: a collider has no 'mass'; it has center, radius and on"},
+         "bob.toml:4:8: a collider has no 'mass'; it has center, radius, on, and to if it is a capsule"},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\nto = 2\n",
+         "bob.toml:4:6: collider.to must be three numbers in metres"},
+        {"[[collider]]\ncenter = [0, 0, 0]\nradius = 1\nto = [0, -101, 0]\n",
+         "bob.toml:4:6: collider.to is -101, but must lie in [-100, 100] m"},
     };
     for (const auto& [text, expected] : cases)
         if (expected.ends_with("not valid TOML"))

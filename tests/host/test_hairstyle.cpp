@@ -111,12 +111,13 @@ TEST(Hairstyle, only_what_differs_is_written)
     assign(style, "smoothing.curve=linear");
     EXPECT_EQ(hairstyle_text(style, "new.toml"),
               "[strand]\nlength = 0.2\n\n[smoothing]\ncurve = \"linear\"\n\n[look]\ntip_color = \"#8a5a3c\"\n");
-    style.host.colliders = {{{0.0f, 0.1f, -2.5f}, 0.05f, true}, {{1.0f, 2.0f, 3.0f}, 1.0f, false}};
+    style.host.colliders = {{{0.0f, 0.1f, -2.5f}, 0.05f, true},
+                            {{1.0f, 2.0f, 3.0f}, 1.0f, false, glm::vec3(1.0f, 2.5f, 3.0f)}};
     Hairstyle only_colliders;
     only_colliders.host.colliders = style.host.colliders;
     EXPECT_EQ(hairstyle_text(only_colliders, "new.toml"),
               "[[collider]]\ncenter = [0.0, 0.1, -2.5]\nradius = 0.05\non = \"head\"\n\n"
-              "[[collider]]\ncenter = [1.0, 2.0, 3.0]\nradius = 1.0\n");
+              "[[collider]]\ncenter = [1.0, 2.0, 3.0]\nto = [1.0, 2.5, 3.0]\nradius = 1.0\n");
 }
 
 TEST(Hairstyle, every_value_comes_back_from_a_file_bit_for_bit)
@@ -224,6 +225,8 @@ TEST(Hairstyle, colliders_are_added_changed_and_removed)
     EXPECT_NE(saved({{{0, 1, 2}, 0.3f, true}, {{-1, 0.5f, 0}, 2.0f, true}}).find("radius = 0.3  # fist"),
               std::string::npos);
     saved({{{0, 1, 2}, 0.3f, false}}); // no longer on the head
+    EXPECT_NE(saved({{{0, 1, 2}, 0.3f, false, glm::vec3(0, 2, 2)}}).find("to = [0.0, 2.0, 2.0]"), std::string::npos);
+    EXPECT_EQ(saved({{{0, 1, 2}, 0.3f, false}}).find("to = "), std::string::npos); // a sphere again
     EXPECT_EQ(saved({}).find("[[collider]]"), std::string::npos);
     saved({first, first, first});
 }
