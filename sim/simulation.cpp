@@ -150,8 +150,8 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp);
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
-        refall = groom.guides != old.guides || groom.nodes != old.nodes || style.params.bending_hold > 0.0f ||
-                 style_.params.bending_hold > 0.0f;
+        const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
+        refall = groom.guides != old.guides || groom.nodes != old.nodes || (held && style.params.solver_kind == 0);
         if (!refall)
         {
             groom.rest_position = old.rest_position;
