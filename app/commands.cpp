@@ -44,8 +44,10 @@ static int run_keys()
             range = fmt::format("{}", fmt::join(param_labels(info), " | "));
         else if (!info.on_host())
             range = fmt::format("[{}, {}]{}{}", info.min, info.max, *info.unit ? " " : "", info.unit);
-        fmt::print("{:<28} {:<13} {:<20} {:<28} {}\n", info.path(), kind_name(info.kind),
-                   info.kind == Kind::LIST ? "" : value_text(defaults, info), range, info.help);
+        const std::string reader = only_reader(info);
+        fmt::print("{:<28} {:<13} {:<20} {:<28} {}{}\n", info.path(), kind_name(info.kind),
+                   info.kind == Kind::LIST ? "" : value_text(defaults, info), range, info.help,
+                   reader.empty() ? "" : fmt::format(" Only the {} solver reads it.", reader));
     }
     return 0;
 }

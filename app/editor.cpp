@@ -202,8 +202,24 @@ void Editor::play(const std::string& motion)
         [&]
         {
             simulation_->play(find_motion(motion));
+            motion_ = motion;
             paused_ = false;
         });
+}
+
+// One block of guides run again at eight times the substeps, in the motion that is played or was last: once for each
+// choice that a tolerance makes, when no slider is held.
+void Editor::measure_quality()
+{
+    const Quality& quality = simulation_->quality();
+    if (quality.rungs.empty() || SDL_GetMouseState(nullptr, nullptr) != 0 ||
+        (measured_ == quality.said && measured_motion_ == motion_))
+        return;
+    measured_ = quality.said;
+    measured_motion_ = motion_;
+    const Motion motion = find_motion(motion_);
+    time_error_ = measure_time_error(device_, simulation_->params(), simulation_->solver().groom(), motion,
+                                     std::min(motion.seconds, 2.0));
 }
 
 void Editor::handle_key(const SDL_Keysym& key)
@@ -400,6 +416,7 @@ bool Editor::frame()
     view_width_ = std::max(1, width - (show_panel_ ? kPanelWidth : 0));
     view_height_ = std::max(1, height);
 
+    guarded([&] { measure_quality(); });
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();
     ImGui::NewFrame();

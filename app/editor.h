@@ -53,6 +53,7 @@ class Editor
     };
     using Intent = std::variant<std::monostate, Close, std::filesystem::path>; // what waits for unsaved changes
 
+    void measure_quality();
     void handle(const SDL_Event& event);
     void handle_key(const SDL_Keysym& key);
     void handle_mouse(const SDL_Event& event);
@@ -81,8 +82,11 @@ class Editor
     Pose hand_; // where the mouse has brought the head
     PassTimes pass_ms_;
     Health health_;
-    std::vector<int> resets_seen_; // of each guide
-    std::string bad_strand_;       // the last that was reset: which, when and why
+    std::vector<int> resets_seen_;           // of each guide
+    std::string bad_strand_;                 // the last that was reset: which, when and why
+    std::string motion_ = "shake";           // that is played, or was last
+    std::string measured_, measured_motion_; // the choice, and the motion, that time_error_ is of
+    double time_error_ = 0.0;                // of the substeps, as a fraction of the length
     std::string message_, save_as_;
     std::string screenshot_size_ = "as shown";
     Intent intent_;

@@ -145,12 +145,10 @@ void Editor::draw_status()
     if (simulation_->solver().asleep())
         ImGui::Text("asleep: at rest, nothing runs");
     const Quality& quality = simulation_->quality();
+    if (!quality.said.empty())
+        ImGui::TextUnformatted(quality_text(quality).c_str());
     if (!quality.rungs.empty())
-    {
-        ImGui::Text("%s", quality.said.c_str());
-        ImGui::Text("substeps are predicted to be off by %.2f %%, nodes by %.2f %% of the length",
-                    100.0 * quality.time_error, 100.0 * quality.node_error);
-    }
+        ImGui::Text("measured in %s: substeps %.2g %%", measured_motion_.c_str(), 100.0 * time_error_);
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     double sum = 0.0;

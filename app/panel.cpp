@@ -145,8 +145,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         if (strcmp(group, info.group))
         {
             group = info.group;
-            open = ImGui::CollapsingHeader(
-                group, *state.filter || strcmp(group, "scalp") ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+            open = ImGui::CollapsingHeader(group, ImGuiTreeNodeFlags_DefaultOpen);
         }
         if (!open)
             continue;
@@ -159,10 +158,13 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         const std::string id = "##" + path;
         ImGui::PushID(path.c_str());
         ImGui::SetNextItemWidth(ImGui::GetWindowWidth() * 0.5f);
+        const bool unread = !is_read(info, style.params);
+        ImGui::BeginDisabled(unread);
         changed |= info.kind == Kind::TEXT ? draw_text(style, info, id.c_str()) : draw_number(style, info, id.c_str());
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         state.places[path] = {low.x, low.y, high.x, high.y};
-        const bool hovered = ImGui::IsItemHovered();
+        ImGui::EndDisabled();
+        const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
         ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
         if (differs)
         {
@@ -170,21 +172,25 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             if (ImGui::SmallButton("x"))
             {
                 copy_value(defaults, style, info);
+                style.places.erase(info.path()); // said no longer: a tolerance may choose it again
                 changed = true;
             }
             ImGui::PopStyleColor();
             if (ImGui::IsItemHovered())
                 ImGui::SetTooltip("back to the default, %s", value_text(defaults, info).c_str());
             ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-            ImGui::TextColored(kChanged, "%s", info.name);
         }
-        else
-            ImGui::TextUnformatted(info.name);
-        if (hovered || ImGui::IsItemHovered())
+        ImGui::BeginDisabled(unread);
+        ImGui::TextColored(differs ? kChanged : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s", info.name);
+        ImGui::EndDisabled();
+        if (hovered || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         {
             ImGui::BeginTooltip();
             ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
             ImGui::TextUnformatted(info.help);
+            if (unread)
+                ImGui::TextColored(kChanged, "%s",
+                                   fmt::format("Only the {} solver reads this.", only_reader(info)).c_str());
             if (!info.on_host() && info.kind != Kind::CHOICE && info.kind != Kind::COLOR)
                 ImGui::TextDisabled(
                     "%s", fmt::format("{} to {} {}; ctrl-click to type", info.min, info.max, info.unit).c_str());

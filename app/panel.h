@@ -20,7 +20,8 @@ struct PanelState
 };
 
 // One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the
-// default is marked and has a button that takes it back. True when something changed; the values lie in their ranges.
+// default is marked and has a button that takes it back; what the chosen solver does not read is greyed and says so.
+// True when something changed; the values lie in their ranges.
 bool draw_params_panel(Hairstyle& style, PanelState& state);
 
 } // namespace coif

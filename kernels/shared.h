@@ -13,7 +13,7 @@
 #define COIF_HOST(group, kind, name, value, scope, effect, help)
 
 #ifdef __cplusplus
-#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)                       \
     COIF_TYPE_##kind group##_##name = value;
 namespace coif
 {
@@ -24,7 +24,7 @@ struct alignas(16) float4
 };
 constexpr float4 F4(float x, float y, float z, float w) { return {x, y, z, w}; }
 #else
-#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help) COIF_TYPE_##kind group##_##name;
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help) COIF_TYPE_##kind group##_##name;
 #endif
 
 // What the artist authored; on the device with angles in radians, colours linear and directions of unit length.

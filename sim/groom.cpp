@@ -241,8 +241,9 @@ static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along
     return segment;
 }
 
-Groom grow(const HairParams& p, const Scalp& scalp)
+Groom grow(const HairParams& p, const Scalp& authored)
 {
+    const Scalp scalp = refined(authored, p.interpolation_refine);
     Groom groom;
     groom.nodes = p.strand_nodes;
     groom.guides = int(scalp.positions.size());

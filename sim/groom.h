@@ -34,7 +34,7 @@ struct Groom
 
 // Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones
 // are spread over the triangles by area, copies equally over the guides. Everything random hangs on
-// params.interpolation_seed.
+// params.interpolation_seed. Throws Error where interpolation.refine asks for too many.
 Groom grow(const HairParams& params, const Scalp& scalp);
 
 // A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are

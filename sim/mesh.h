@@ -27,6 +27,11 @@ struct Scalp : Mesh
 // indices out of range, coordinates that are not finite, more than 65,536 vertices, no extent.
 Scalp load_scalp(const std::filesystem::path& file);
 
+// The scalp with each triangle cut in four at the middles of its sides, `times` over. Vertices keep their numbers, new
+// ones follow. Throws Error when that would be more than 65,536 of them.
+Scalp refined(const Scalp& scalp, int times);
+int most_refinements(const Scalp& scalp); // that refined() takes, and interpolation.refine
+
 // Any mesh that assimp reads, with its nodes' transforms applied. Normals are computed where the file has none. Throws
 // Error when it is no mesh, has no triangles, more than five million of them, or coordinates that are not finite.
 Mesh load_mesh(const std::filesystem::path& file);

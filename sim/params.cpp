@@ -15,14 +15,16 @@ namespace coif
 // A list has no name: its "" in params.def is none.
 static constexpr const char* bare(const char* name) { return *name == '"' ? "" : name; }
 
-#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)                                \
-    {#group, #name, Kind::kind, Scope::scope, Effect::effect, offsetof(HairParams, group##_##name), lo,                \
-     hi,     unit,  labels,     help},
+// clang-format off
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)                       \
+    {#group, #name, Kind::kind, Scope::scope, Effect::effect, ReadBy::read_by, offsetof(HairParams, group##_##name),   \
+     lo, hi, unit, labels, help},
 #define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
 #define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
 #define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
-    {#group, bare(#name), Kind::kind, Scope::scope, Effect::effect, COIF_OFFSET_##kind(group, name), 0.0f,             \
-     0.0f,   "",          "",         help},
+    {#group, bare(#name), Kind::kind, Scope::scope, Effect::effect, ReadBy::ALL, COIF_OFFSET_##kind(group, name),      \
+     0.0f, 0.0f, "", "", help},
+// clang-format on
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof" // HostParams holds strings; its offsets are well defined here
@@ -49,6 +51,16 @@ const char* effect_name(Effect effect)
 {
     static const char* const names[] = {"live", "view", "regrow", "rebuild"};
     return names[int(effect)];
+}
+
+bool is_read(const ParamInfo& info, const HairParams& params)
+{
+    return info.read_by == ReadBy::ALL || int(info.read_by) == params.solver_kind + 1;
+}
+
+std::string only_reader(const ParamInfo& info)
+{
+    return info.read_by == ReadBy::ALL ? "" : param_labels(*find_param("solver.kind"))[size_t(info.read_by) - 1];
 }
 
 const ParamInfo* find_param(std::string_view path)

@@ -25,7 +25,7 @@ struct Collider
 
 #define COIF_MEMBER_TEXT(group, name, value) std::string group##_##name = value;
 #define COIF_MEMBER_LIST(group, name, value) std::vector<Collider> group##s;
-#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, labels, help)
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)
 #define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_MEMBER_##kind(group, name, value)
 
 // What an artist authors that never reaches the device: paths as they stand in the file, and lists.
@@ -60,6 +60,12 @@ enum class Effect
     REGROW,
     REBUILD
 };
+enum class ReadBy // ALL, or a choice of solver.kind and one more
+{
+    ALL,
+    DIRECT,
+    PBD
+};
 
 // One line of kernels/params.def, as data. Whatever handles parameters walks this table, so that nothing of it changes
 // when a parameter is added.
@@ -70,6 +76,7 @@ struct ParamInfo
     Kind kind;
     Scope scope;
     Effect effect;
+    ReadBy read_by;
     size_t offset; // into HairParams, or into HostParams for TEXT and LIST
     float min, max;
     const char* unit;
@@ -85,6 +92,12 @@ std::span<const ParamInfo> param_table();
 const char* kind_name(Kind kind);
 const char* scope_name(Scope scope);
 const char* effect_name(Effect effect);
+
+// Has the solver that `params` chooses a use for this parameter?
+bool is_read(const ParamInfo& info, const HairParams& params);
+
+// The label in solver.kind of the one solver that reads it; "" where all do.
+std::string only_reader(const ParamInfo& info);
 
 // "strand.length" -> its line, or null.
 const ParamInfo* find_param(std::string_view path);

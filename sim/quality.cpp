@@ -128,18 +128,16 @@ static double error_of_links(int links) { return 0.028 * std::pow(7.0 / links, 1
 // Free of contact, 0.2 % at a spacing of 17 mm, by its square.
 static double error_of_spacing(double spacing) { return 0.002 * std::pow(spacing / 0.017, 2); }
 
-static bool pinned(const HairParams& params, const char* path)
+// Does the style say it, in its file or since?
+static bool pinned(const Hairstyle& style, const char* path)
 {
-    static const HairParams defaults;
-    float a[3] = {}, b[3] = {};
-    get_numbers(params, *find_param(path), a);
-    get_numbers(defaults, *find_param(path), b);
-    return a[0] != b[0];
+    static const Hairstyle defaults;
+    return style.places.contains(path) || !same_value(style, defaults, *find_param(path));
 }
 
 // Rungs from a Courant number downwards, each with twice the substeps; their errors against the finest, and by
 // Richardson's extrapolation beyond it.
-static std::vector<Rung> climb(const Device& device, const HairParams& params, const Groom& groom)
+static std::vector<Rung> climb(const Device& device, const HairParams& params, const Groom& groom, bool rate_pinned)
 {
     constexpr int kRuns = 5;
     constexpr double kSeconds = 2.0;
@@ -156,13 +154,17 @@ static std::vector<Rung> climb(const Device& device, const HairParams& params, c
     std::vector<Rung> rungs;
     for (int k = 0; k + 1 < kRuns; ++k)
     {
-        if (k > 0 && runs[0].most_substeps << k > MOST_SUBSTEPS)
+        // What k halvings ask for, in substeps of fewer steps a second where there is room.
+        float rate = params.solver_rate;
+        while (float(runs[0].most_substeps << k) > MOST_SUBSTEPS * rate / params.solver_rate)
+            rate *= 2.0f;
+        if (rate > (rate_pinned ? params.solver_rate : find_param("solver.rate")->max))
             break;
+        const int share = int(std::lround(rate / params.solver_rate));
         // The finest is not the truth: its own error is ratio^-(runs between) of this one's.
         const double error = apart(runs[size_t(k)], finest, few) / (1.0 - std::pow(ratio, k + 1 - kRuns));
-        const int substeps = std::max(1, params.solver_substeps) << k;
-        rungs.push_back({params.solver_courant / float(1 << k), std::min(substeps, MOST_SUBSTEPS), error,
-                         runs[size_t(k)].nanoseconds});
+        const int substeps = std::clamp((std::max(1, params.solver_substeps) << k) / share, 1, MOST_SUBSTEPS);
+        rungs.push_back({params.solver_courant / float(1 << k), substeps, rate, error, runs[size_t(k)].nanoseconds});
     }
     return rungs;
 }
@@ -173,13 +175,21 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     Hairstyle live = style;
     HairParams& p = live.params;
     const double tolerance = 0.01 * double(p.quality_tolerance);
-    if (tolerance <= 0.0 || p.solver_kind != 0)
+    if (tolerance <= 0.0)
         return live;
+    if (p.solver_kind != 0)
+    {
+        quality.said =
+            fmt::format("tolerance {:.3g} %: nothing chosen or predicted; the style pins the pbd solver, whose "
+                        "error no number of iterations bounds",
+                        100.0 * tolerance);
+        return live;
+    }
     std::string chosen, held;
     const auto note = [](std::string& list, const std::string& what) { list += (list.empty() ? "" : ", ") + what; };
 
     // Nodes first: half the tolerance, as errors that are independent add; then substeps for what is left.
-    if (pinned(p, "strand.nodes"))
+    if (pinned(style, "strand.nodes"))
         note(held, fmt::format("{} nodes", p.strand_nodes));
     else
     {
@@ -193,14 +203,25 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     }
     quality.node_error = error_of_links(p.strand_nodes - 2);
 
+    // Guides: drawn strands between them are off by the square of how far apart they are, so each refinement quarters
+    // it.
+    const double spacing = std::sqrt(2.0 * std::numbers::pi) * double(scalp.radius) * double(p.head_scale) /
+                           std::sqrt(std::max(1.0, double(scalp.positions.size())));
+    const bool guides_pinned = pinned(style, "interpolation.refine");
+    for (const int most = most_refinements(scalp); !guides_pinned && p.interpolation_refine < most;)
+    {
+        if (error_of_spacing(std::ldexp(spacing, -p.interpolation_refine)) <= tolerance)
+            break;
+        ++p.interpolation_refine;
+    }
+    quality.guide_error = error_of_spacing(std::ldexp(spacing, -p.interpolation_refine));
     const Groom groom = grow(p, scalp);
-    quality.guide_error = error_of_spacing(std::sqrt(2.0 * std::numbers::pi) * double(scalp.radius) *
-                                           double(p.head_scale) / std::sqrt(std::max(1.0, double(groom.guides))));
-    const bool substeps_pinned = pinned(p, "solver.courant") || pinned(p, "solver.substeps");
+    note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
+    const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");
     HairParams probed = alone(p);
     if (!substeps_pinned)
         probed.solver_courant = 1.8f;
-    quality.rungs = climb(device, probed, groom);
+    quality.rungs = climb(device, probed, groom, substeps_pinned || pinned(style, "solver.rate"));
     const double left = std::sqrt(
         std::max(0.25 * tolerance * tolerance, tolerance * tolerance - quality.node_error * quality.node_error));
     if (!substeps_pinned)
@@ -209,21 +230,43 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     const Rung& rung = quality.rungs[quality.chosen];
     p.solver_courant = rung.courant;
     p.solver_substeps = rung.substeps;
+    p.solver_rate = rung.rate;
     quality.time_error = rung.error;
     note(substeps_pinned ? held : chosen, fmt::format("courant {:.3g}", p.solver_courant));
+    note(pinned(style, "solver.rate") ? held : chosen, fmt::format("{:.3g} steps a second", p.solver_rate));
 
     // What pictures and repulsion can tell apart at that tolerance (coif measure: grid, picture).
-    if (!pinned(p, "grid.resolution"))
+    if (!pinned(style, "grid.resolution"))
         p.grid_resolution = tolerance >= 0.05 ? 32 : 64;
-    else
-        note(held, fmt::format("grid {}", p.grid_resolution));
-    if (!pinned(p, "smoothing.subdivisions"))
+    note(pinned(style, "grid.resolution") ? held : chosen, fmt::format("grid {}", p.grid_resolution));
+    if (!pinned(style, "smoothing.subdivisions"))
         p.smoothing_subdivisions = tolerance >= 0.05 ? 3 : tolerance >= 0.02 ? 4 : 5;
-    else
-        note(held, fmt::format("{} subdivisions", p.smoothing_subdivisions));
+    note(pinned(style, "smoothing.subdivisions") ? held : chosen,
+         fmt::format("{} subdivisions", p.smoothing_subdivisions));
     quality.said = fmt::format("tolerance {:.3g} %: {}; the style pins {}", 100.0 * tolerance,
                                chosen.empty() ? "nothing to choose" : chosen, held.empty() ? "nothing" : held);
+    if (quality.predicted() > tolerance)
+        quality.said += fmt::format("; that comes to {:.2g} %, no less can be had", 100.0 * quality.predicted());
     return live;
+}
+
+std::string quality_text(const Quality& quality)
+{
+    std::string text = quality.said;
+    if (quality.rungs.empty())
+        return text;
+    text += fmt::format("\npredicted, free of contact: {:.2g} % of the length: substeps {:.2g} %, nodes {:.2g} %; "
+                        "drawn strands between guides {:.2g} %",
+                        100.0 * quality.predicted(), 100.0 * quality.time_error, 100.0 * quality.node_error,
+                        100.0 * quality.guide_error);
+    for (size_t i = 0; i < quality.rungs.size(); ++i)
+    {
+        const Rung& rung = quality.rungs[i];
+        text +=
+            fmt::format("\n  {} courant {:.3g}, {:.3g} Hz: {:.2g} %, {:.0f} ns a strand and step",
+                        i == quality.chosen ? '*' : ' ', rung.courant, rung.rate, 100.0 * rung.error, rung.nanoseconds);
+    }
+    return text + "\nin contact, errors under 3 % cannot be told: what bodies do to hair is known no better";
 }
 
 } // namespace coif

@@ -13,25 +13,35 @@ struct Rung
 {
     float courant = 1.0f;
     int substeps = 1;         // at least
+    float rate = 60.0f;       // steps a second: where a step would need more than MOST_SUBSTEPS, it is cut too
     double error = 0.0;       // rms of all nodes over time, as a fraction of the strand's length: predicted
     double nanoseconds = 0.0; // a strand and step; shown, never decided by
 };
 
+// What a tolerance may choose.
+constexpr const char* kTolerant[] = {"solver.courant",       "solver.substeps", "solver.rate",           "strand.nodes",
+                                     "interpolation.refine", "grid.resolution", "smoothing.subdivisions"};
+
 // What quality.tolerance has come to for a style.
 struct Quality
 {
-    std::vector<Rung> rungs; // from the cheapest; empty: nothing was asked for
+    std::vector<Rung> rungs; // from the cheapest; empty: there was nothing to choose
     size_t chosen = 0;
     double time_error = 0.0;  // of the rung chosen, predicted
     double node_error = 0.0;  // of that many nodes: tests/reference/node_count_error.csv
-    double guide_error = 0.0; // of drawn strands that follow guides that far apart: accuracy.md's law, not a choice yet
+    double guide_error = 0.0; // of drawn strands that follow guides that far apart
     double predicted() const; // of what is simulated: time and nodes, as independent errors add
-    std::string said;         // what was chosen and what the style pins, in a sentence
+    std::string said;         // what was chosen and what the style pins, in a sentence; empty: nothing was asked for
 };
 
-// The style as it is to be simulated: whatever it leaves at its default and bears on accuracy (solver.courant and
-// substeps, strand.nodes, grid.resolution, smoothing.subdivisions) as coarse as quality.tolerance allows. What it says
-// itself is pinned. Without a tolerance, the style as it is. Throws Error as grow() and Solver do.
+// All of it in lines for people: what was chosen, what error is predicted, and what each choice would cost.
+std::string quality_text(const Quality& quality);
+
+// The style as it is to be simulated: whatever it leaves unsaid and bears on accuracy (kTolerant) as coarse as
+// quality.tolerance allows, the cheapest that the tables of `coif measure` say will do. What it says itself is pinned.
+// Of the solvers the direct one is cheaper at any accuracy, so pbd is only where a style says so: then nothing is
+// chosen or predicted, because no number of its iterations bounds its error. Without a tolerance, the style as it is.
+// Throws Error as grow() and Solver do.
 Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality);
 
 // The error of these parameters over a motion, measured: sixteen guides against themselves at eight times the substeps,

@@ -171,8 +171,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     if (reload || !same_hair(authored, authored_))
         style = meet_tolerance(device_, authored, meshes ? fresh.scalp : assets_.scalp, quality);
     else
-        for (const char* kept :
-             {"solver.courant", "solver.substeps", "strand.nodes", "grid.resolution", "smoothing.subdivisions"})
+        for (const char* kept : kTolerant)
             if (!quality_.rungs.empty())
                 copy_value(style_, style, *find_param(kept));
     bool regrow = reload;
@@ -186,8 +185,8 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp);
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
-        refall = groom.guides != old.guides || groom.nodes != old.nodes || style.params.bending_hold > 0.0f ||
-                 style_.params.bending_hold > 0.0f;
+        const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
+        refall = groom.guides != old.guides || groom.nodes != old.nodes || (held && style.params.solver_kind == 0);
         if (!refall)
         {
             groom.rest_position = old.rest_position;

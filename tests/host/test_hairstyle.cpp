@@ -110,7 +110,7 @@ TEST(Hairstyle, only_what_differs_is_written)
     assign(style, "look.tip_color=#8a5a3c");
     assign(style, "smoothing.curve=linear");
     EXPECT_EQ(hairstyle_text(style, "new.toml"),
-              "[strand]\nlength = 0.2\n\n[smoothing]\ncurve = \"linear\"\n\n[look]\ntip_color = \"#8a5a3c\"\n");
+              "[strand]\nlength = 0.2\n\n[look]\ntip_color = \"#8a5a3c\"\n\n[smoothing]\ncurve = \"linear\"\n");
     style.host.colliders = {{{0.0f, 0.1f, -2.5f}, 0.05f, true},
                             {{1.0f, 2.0f, 3.0f}, 1.0f, false, glm::vec3(1.0f, 2.5f, 3.0f)}};
     Hairstyle only_colliders;

@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 // assimp's reader of FBX leaks where a file ends too early; that is not coif's to mend.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
@@ -55,6 +57,59 @@ TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
         EXPECT_EQ(vertex, guides);
         EXPECT_EQ(face, scalp.triangles.size());
     }
+}
+
+TEST(Scalp, refined_has_a_vertex_more_at_the_middle_of_each_side)
+{
+    for (const char* name : {"scalp.obj", "scalp_strip.obj"})
+    {
+        const Scalp coarse = load_scalp(shipped(name));
+        std::set<std::pair<unsigned, unsigned>> sides;
+        for (const glm::uvec3& t : coarse.triangles)
+            for (int k = 0; k < 3; ++k)
+                sides.insert(std::minmax(t[k], t[(k + 1) % 3]));
+        const Scalp fine = refined(coarse, 1);
+        ASSERT_EQ(fine.positions.size(), coarse.positions.size() + sides.size());
+        ASSERT_EQ(fine.normals.size(), fine.positions.size());
+        EXPECT_EQ(fine.triangles.size(), 4 * coarse.triangles.size());
+        for (size_t v = 0; v < coarse.positions.size(); ++v)
+        {
+            EXPECT_EQ(fine.positions[v], coarse.positions[v]);
+            EXPECT_EQ(fine.normals[v], coarse.normals[v]);
+        }
+        std::set<std::array<float, 3>> middles, found;
+        for (const auto& [a, b] : sides)
+        {
+            const glm::vec3 m = 0.5f * (coarse.positions[a] + coarse.positions[b]);
+            middles.insert({m.x, m.y, m.z});
+        }
+        for (size_t v = coarse.positions.size(); v < fine.positions.size(); ++v)
+        {
+            found.insert({fine.positions[v].x, fine.positions[v].y, fine.positions[v].z});
+            EXPECT_NEAR(glm::length(fine.normals[v]), 1.0f, 1e-5f);
+        }
+        EXPECT_EQ(found, middles);
+        // The same surface, seen from the same side.
+        const auto area = [](const Scalp& scalp)
+        {
+            glm::dvec3 sum(0.0);
+            for (const glm::uvec3& t : scalp.triangles)
+                sum += glm::cross(glm::dvec3(scalp.positions[t.y] - scalp.positions[t.x]),
+                                  glm::dvec3(scalp.positions[t.z] - scalp.positions[t.x]));
+            return sum;
+        };
+        EXPECT_LT(glm::distance(area(fine), area(coarse)), 1e-5 * glm::length(area(coarse)));
+        EXPECT_EQ(refined(coarse, 2).positions, refined(fine, 1).positions);
+    }
+}
+
+TEST(Scalp, is_refined_until_it_carries_as_many_guides_as_coif_takes)
+{
+    const Scalp scalp = load_scalp(shipped("scalp.obj"));
+    const int most = most_refinements(scalp);
+    EXPECT_GE(most, 3);
+    EXPECT_LE(refined(scalp, most).positions.size(), 65536u);
+    EXPECT_NE(error_of([&] { refined(scalp, most + 1); }).find("interpolation.refine"), std::string::npos);
 }
 
 TEST(Scalp, each_shipped_one_lies_on_the_cranium_and_looks_outwards)

@@ -52,6 +52,34 @@ TEST(Params, every_path_is_unique_and_found)
         EXPECT_EQ(find_param(unknown), nullptr) << unknown;
 }
 
+TEST(Params, a_group_stands_in_one_piece)
+{
+    std::set<std::string> done;
+    std::string group;
+    for (const ParamInfo& info : param_table())
+        if (info.group != group)
+        {
+            group = info.group;
+            EXPECT_TRUE(done.insert(group).second) << info.path();
+        }
+    EXPECT_STREQ(param_table()[0].group, "strand");
+}
+
+TEST(Params, what_one_solver_reads_is_read_under_it_alone)
+{
+    HairParams params;
+    const std::vector<std::string> kinds = param_labels(*find_param("solver.kind"));
+    for (params.solver_kind = 0; params.solver_kind < int(kinds.size()); ++params.solver_kind)
+        for (const ParamInfo& info : param_table())
+        {
+            const std::string only = only_reader(info);
+            EXPECT_EQ(is_read(info, params), only.empty() || only == kinds[size_t(params.solver_kind)]) << info.path();
+        }
+    EXPECT_EQ(only_reader(*find_param("solver.iterations")), "pbd");
+    EXPECT_EQ(only_reader(*find_param("bending.droop")), "direct");
+    EXPECT_EQ(only_reader(*find_param("strand.length")), "");
+}
+
 TEST(Params, every_default_lies_in_its_range)
 {
     const HairParams defaults;
