@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 // In contact smaller errors cannot be told: what bodies do to hair is known no better.
 static constexpr float kToleranceUnsaid = 3.0f; // %
 static constexpr double kShareOfSeed = 0.5;     // of what another seed does to a picture, that is surely seen
+static constexpr double kRoom = 0.5;            // of the tolerances, that one count alone may take by going further
 
 static bool blows(const Trial& trial)
 {
@@ -68,12 +69,12 @@ static void measure_features(const Trial& trial, Advice& advice)
     }
 }
 
-// Counts that can be lowered by one step go on down as long as nobody can tell.
+// What has a cheaper step still takes it, as long as it leaves the others room.
 static void go_further(const Trial& trial, Advice& advice)
 {
     std::vector<size_t> going;
     for (size_t i = 0; i < advice.features.size(); ++i)
-        if (advice.features[i].verdict == Verdict::LEAVE_OUT)
+        if (advice.features[i].verdict == Verdict::LEAVE_OUT && taken(advice, advice.features[i].difference) <= kRoom)
             going.push_back(i);
     while (!going.empty())
     {
@@ -90,9 +91,11 @@ static void go_further(const Trial& trial, Advice& advice)
             changed.push_back(feature.style);
         }
         going.clear();
+        if (changed.empty())
+            return;
         const Comparison found = compare(trial, advice.base, changed);
         for (size_t i = 0; i < tried.size(); ++i)
-            if (within(advice, found.changed[i]))
+            if (taken(advice, found.changed[i]) <= kRoom)
             {
                 advice.features[tried[i]].feature = next[i];
                 advice.features[tried[i]].difference = found.changed[i];

@@ -20,7 +20,7 @@ namespace
 // this many times smaller, what counts is where the locks are and how dark they are; and it has as many samples a side.
 constexpr int kAfar = 4;
 constexpr int kLookEvery = 3;                   // frames
-constexpr int kPictures = 3;                    // at the start, halfway and at the end
+constexpr int kPictures = 2;                    // at the start and at the end
 constexpr size_t kDrawnNodes = size_t(1) << 25; // of all styles side by side: a gigabyte
 
 // One style in the play.
@@ -159,12 +159,13 @@ static double saved(const std::vector<double>& own, const std::vector<double>& c
     return median(less);
 }
 
-// Of the few pictures: nothing, unless all of the one are quicker than all of the other.
+// Of the few pictures: nothing, unless all of the one are surely quicker than all of the other.
 static double saved_surely(const std::vector<double>& own, const std::vector<double>& changed)
 {
-    const auto [least, most] = std::minmax_element(own.begin(), own.end());
-    const auto [least_changed, most_changed] = std::minmax_element(changed.begin(), changed.end());
-    return *most < *least_changed || *most_changed < *least ? median(own) - median(changed) : 0.0;
+    const auto [least, most] = std::ranges::minmax(own);
+    const auto [least_changed, most_changed] = std::ranges::minmax(changed);
+    const double sure = 1.05;
+    return sure * most < least_changed || sure * most_changed < least ? least - least_changed : 0.0;
 }
 
 // The first of the players is the style as it is.
@@ -213,12 +214,14 @@ static void play(const Trial& trial, std::vector<Player>& players, Comparison& c
         }
     }
     comparison.step_ms = median(players[0].step_ms);
-    comparison.picture_ms = median(players[0].picture_ms);
+    comparison.picture_ms = std::ranges::min(players[0].picture_ms);
     for (size_t i = 1; i < players.size(); ++i)
     {
         all[i].motion = std::sqrt(squares[i] / looks) / double(groom.longest);
         if (players[i].simulation != players[0].simulation)
             all[i].step_ms = saved(players[0].step_ms, players[i].step_ms);
+        if (comparison.step_ms > 0.0)
+            all[i].share = all[i].step_ms / comparison.step_ms;
         all[i].picture_ms = saved_surely(players[0].picture_ms, players[i].picture_ms);
         comparison.changed.push_back(all[i]);
     }

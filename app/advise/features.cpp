@@ -47,18 +47,23 @@ static bool in_wind(const Hairstyle& s, bool windy)
     const float4& wind = s.params.forces_wind;
     return windy || wind.x != 0.0f || wind.y != 0.0f || wind.z != 0.0f;
 }
-// The spheres that coif ships stand for the head that it ships.
-static bool own_head(const Hairstyle& s, bool)
+// Is there a shape that spheres and capsules could stand for?
+static bool has_shape(const Hairstyle& s, bool) { return !s.host.head_mesh.empty() && !s.host.head_spheres.empty(); }
+// Is what stands for the head no more than those, or is there nothing but a ball that could?
+static bool has_spheres(const Hairstyle& s, bool windy)
 {
-    return !s.host.head_spheres.empty() || s.host.head_mesh == HostParams{}.head_mesh;
+    return !has_shape(s, windy) ||
+           param_labels(*find_param("head.contact"))[size_t(s.params.head_contact)] == "spheres";
 }
 
+// Where two have one name, the second goes further than the first.
 static const Switch kSwitches[] = {
     {"self-shadow", {"look.self_shadow=0"}, draws},
     {"repulsion", {"forces.repulsion=0"}, always},
     {"blur of the grid", {"grid.blur=0"}, has_grid},
     {"mixing of guides", {"interpolation.ratio=1"}, draws},
-    {"spheres of the head", {"head.spheres="}, own_head},
+    {"shape of the head", {"head.contact=spheres"}, has_shape},
+    {"shape of the head", {"head.contact=spheres", "head.spheres="}, has_spheres},
     {"colliders", {"collider"}, always},
     {"friction", {"forces.friction=0"}, direct},
     {"bending", {"bending.droop=10000", "bending.modulus=0"}, direct},
@@ -164,7 +169,11 @@ Feature further(const Feature& feature)
     for (const Count& count : kCounts)
         if (feature.name == count.name && !feature.lacked)
             return {feature.name, stepped(feature.style, count, count.less, count.cheapest)};
-    return feature;
+    Feature next = feature;
+    for (const Switch& off : kSwitches)
+        if (feature.name == off.name && off.matters(feature.style, false) && !feature.lacked)
+            next.style = switched_off(feature.style, off);
+    return next;
 }
 
 Hairstyle with_changes(Hairstyle style, const Hairstyle& from, const Hairstyle& changed)

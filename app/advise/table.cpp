@@ -31,16 +31,15 @@ static std::string percent(double fraction) { return fmt::format("{:.2f} %", 100
 static std::string ms(double value) { return value == 0.0 ? "" : fmt::format("{:.2f} ms", value); }
 
 // A line of the table; `sign` is -1 where a difference is a cost.
-static std::vector<std::string> line(const Advice& advice, const std::string& name, const std::string& change,
-                                     const Difference& d, double sign, const std::string& verdict)
+static std::vector<std::string> line(const std::string& name, const std::string& change, const Difference& d,
+                                     double sign, const std::string& verdict)
 {
-    const double share = advice.step_ms > 0.0 ? sign * d.step_ms / advice.step_ms : 0.0;
     return {name,
             change,
             percent(d.motion),
             percent(d.picture),
             ms(sign * d.step_ms),
-            d.step_ms == 0.0 ? "" : fmt::format("{:.0f} %", 100.0 * share),
+            d.step_ms == 0.0 ? "" : fmt::format("{:.0f} %", 100.0 * sign * d.share),
             ms(sign * d.picture_ms),
             verdict};
 }
@@ -59,13 +58,13 @@ std::string table_of(const Advice& advice)
     {
         for (const Advised& a : advice.features)
             if (a.feature.lacked == lacked && wanted(a.verdict))
-                lines.push_back(line(advice, a.feature.name, changes_text(advice.base, a.feature.style), a.difference,
+                lines.push_back(line(a.feature.name, changes_text(advice.base, a.feature.style), a.difference,
                                      lacked ? -1.0 : 1.0, word(a.verdict)));
     };
     add(false, [](Verdict v) { return v == Verdict::LEAVE_OUT; });
     const size_t out = lines.size() - 1;
     if (out > 1)
-        lines.push_back(line(advice, "all of these", fmt::format("{} together", out), advice.together, 1.0, ""));
+        lines.push_back(line("all of these", fmt::format("{} together", out), advice.together, 1.0, ""));
     add(false, [](Verdict v) { return v != Verdict::LEAVE_OUT; });
     lines.push_back({});
     lines.push_back({"it lacks", "with it, or with more", "motion", "picture", "costs", "", "a picture", ""});
@@ -78,9 +77,10 @@ std::string table_of(const Advice& advice)
 
 static std::string json(const Difference& d)
 {
-    return fmt::format("\"motion\": {}, \"picture\": {}, \"saves_ms\": {}, \"saves_picture_ms\": {}",
-                       json_number(d.motion), json_number(d.picture), json_number(d.step_ms),
-                       json_number(d.picture_ms));
+    return fmt::format(
+        "\"motion\": {}, \"picture\": {}, \"saves_ms\": {}, \"saves_share\": {}, \"saves_picture_ms\": {}",
+        json_number(d.motion), json_number(d.picture), json_number(d.step_ms), json_number(d.share),
+        json_number(d.picture_ms));
 }
 
 std::string json_of(const Advice& advice, const std::string& written)

@@ -51,7 +51,7 @@ TEST(AdviseFeatures, what_is_used_is_switched_off_or_stepped_down)
     EXPECT_EQ(said("gusts"), "forces.turbulence = 0.0");
     EXPECT_EQ(said("waves"), "wave.normal_amplitude = 0.0");
     EXPECT_EQ(said("colliders"), "collider = 0 of them");
-    EXPECT_EQ(said("spheres of the head"), "head.spheres = \"\"");
+    EXPECT_EQ(said("shape of the head"), "head.contact = \"spheres\"");
     EXPECT_EQ(said("nodes"), "strand.nodes = 11");
     EXPECT_EQ(said("grid"), "grid.resolution = 32");
     EXPECT_EQ(said("time steps"), "solver.rate = 60.0");
@@ -93,8 +93,20 @@ TEST(AdviseFeatures, what_defaults_have_and_the_style_has_not_is_lacked)
     EXPECT_EQ(find(lacked, "self-shadow"), nullptr) << "it has that";
     EXPECT_EQ(find(lacked, "waves"), nullptr) << "nobody expects those";
     EXPECT_TRUE(std::ranges::all_of(lacked, &Feature::lacked));
-    const Hairstyle other = styled({"head.mesh=mine.obj", "head.spheres="});
-    EXPECT_EQ(find(lacked_features(other, false), "spheres of the head"), nullptr) << "those are of another head";
+}
+
+TEST(AdviseFeatures, a_head_goes_from_its_shape_to_spheres_to_a_ball)
+{
+    const char* name = "shape of the head";
+    const Hairstyle style, spheres = styled({"head.contact=spheres"});
+    const Feature first = *find(used_features(style, false), name);
+    EXPECT_EQ(changes_text(style, first.style), "head.contact = \"spheres\"");
+    const std::string ball = "head.spheres = \"\"";
+    EXPECT_EQ(changes_text(first.style, further(first).style), ball);
+    EXPECT_EQ(changes_text(further(first).style, further(further(first)).style), "");
+    EXPECT_EQ(change(spheres, used_features(spheres, false), name), ball);
+    EXPECT_EQ(change(spheres, lacked_features(spheres, false), name), "head.contact = \"grid\"");
+    EXPECT_EQ(find(lacked_features(style, false), name), nullptr);
 }
 
 TEST(AdviseFeatures, counts_step_down_to_an_end)
