@@ -20,13 +20,13 @@ class Advising : public testing::Test
     static Hairstyle small_style()
     {
         Hairstyle style;
-        for (const char* set : {"strand.length=0.06", "strand.nodes=6", "bending.droop=2", "interpolation.strands=400",
-                                "look.width=0.002", "grid.resolution=16", "camera.distance=0.7"})
+        for (const char* set : {"strand.length=0.06", "strand.nodes=6", "bending.droop=2", "interpolation.strands=3000",
+                                "grid.resolution=16", "camera.distance=0.7"})
             assign(style, set);
         style.host.colliders.push_back({glm::vec3(5.0f), 0.05f, false});
         return style;
     }
-    Advice advice(const Hairstyle& style, double tolerance = 0.03)
+    Advice advice(const Hairstyle& style, double tolerance = 0.01)
     {
         return advise_on({test_device(), renderer, find_motion("shake"), 0.3, tolerance}, style);
     }

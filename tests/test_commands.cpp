@@ -159,7 +159,7 @@ TEST_F(Commands, advise_prints_a_table_and_writes_the_cheaper_style_beside)
 {
     write("stiff.toml", "# stiff\n[strand]\nlength = 0.05 # short\nnodes = 6\n[bending]\ndroop = 1.0\n"
                         "[interpolation]\nstrands = 200\n[grid]\nresolution = 16\n"
-                        "[[collider]] # far away\ncenter = [5.0, 5.0, 5.0]\n");
+                        "[[collider]] # far away\ncenter = [5.0, 5.0, 5.0]\nradius = 0.1\n");
     const Result table = coif("advise stiff.toml --seconds 0.1 --apply");
     ASSERT_EQ(table.status, 0) << table.err;
     for (const char* words : {"it has", "colliders", "leave out", "self-shadow", "keep", "it lacks", "guides"})
