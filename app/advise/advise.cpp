@@ -190,7 +190,7 @@ int advise(const Options& options, const AdviseOptions& wanted)
 
     const bool leaner = !changes_text(advice.base, advice.lean).empty(), write = wanted.apply && leaner;
     if (write)
-        write_lean(with_changes(authored, advice.base, advice.lean), target);
+        write_lean(advice.lean, target); // as it was measured, what a tolerance chose written out
     fmt::print("{}", wanted.json ? json_of(advice, write ? target.string() : "") : table_of(advice));
     std::fflush(stdout); // before the words
     if (write)
