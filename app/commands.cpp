@@ -1,5 +1,6 @@
 #include "app/commands.h"
 
+#include "app/advise/advise.h"
 #include "app/editor.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
@@ -130,6 +131,18 @@ int run_command(int argc, char** argv)
     report_command->add_flag("--csv", wanted.csv, "One line a frame")->excludes("--json");
     report_command->add_option("-o,--output", options.output, "File to write instead of the terminal");
 
+    AdviseOptions advised;
+    CLI::App* advise_command = with_device(common(
+        app.add_subcommand("advise", "Say what a style could do without, what that saves, and what it lacks"), true));
+    advise_command->get_option("--tolerance")
+        ->description("Difference in motion that nobody would mind, of the hair's length: 3%, or what the style says");
+    advise_command->add_option("--motion", advised.motion, "Motion to play: a file, or one of coif's")
+        ->capture_default_str();
+    advise_command->add_option("--seconds", advised.seconds, "How long")->capture_default_str();
+    CLI::Option* apply = advise_command->add_flag("--apply", advised.apply, "Write the cheaper style: NAME.lean.toml");
+    advise_command->add_option("-o,--output", options.output, "File that --apply writes instead")->needs(apply);
+    advise_command->add_flag("--json", advised.json, "One JSON object");
+
     MeasureOptions measured;
     CLI::App* measure_command =
         with_device(app.add_subcommand("measure", "Measure accuracy against cost: tables and plots into a folder"));
@@ -200,6 +213,8 @@ int run_command(int argc, char** argv)
         return report(options, wanted);
     if (lab_command->parsed())
         return lab(options, hung, lab_seconds->count() > 0);
+    if (advise_command->parsed())
+        return advise(options, advised);
     if (measure_command->parsed())
         return measure(options, measured);
     if (stress_command->parsed())

@@ -84,4 +84,23 @@ Mask changed_pixels(const Image& a, const Image& b, int levels)
     return mask;
 }
 
+Mask either(const Mask& a, const Mask& b)
+{
+    Mask both = a;
+    for (size_t i = 0; i < both.size(); ++i)
+        both[i] = a[i] || b[i];
+    return both;
+}
+
+Mask shrunk(const Mask& mask, int width, int height, int by)
+{
+    const int wide = width / by, high = height / by;
+    Mask small(size_t(wide * high));
+    for (int y = 0; y < high * by; ++y)
+        for (int x = 0; x < wide * by; ++x)
+            if (mask[size_t(y * width + x)])
+                small[size_t(y / by * wide + x / by)] = true;
+    return small;
+}
+
 } // namespace coif

@@ -19,4 +19,9 @@ double ssim(const Image& a, const Image& b, const Mask& mask = {});
 // Pixels whose colour differs by at least `levels` of 255 in some channel.
 Mask changed_pixels(const Image& a, const Image& b, int levels);
 
+Mask either(const Mask& a, const Mask& b);
+
+// Blocks of `by` x `by` pixels of which any counts, as shrunk() makes them of an image; `width` and `height` of `mask`.
+Mask shrunk(const Mask& mask, int width, int height, int by);
+
 } // namespace coif

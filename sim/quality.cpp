@@ -125,8 +125,13 @@ double Quality::predicted() const { return std::hypot(time_error, node_error); }
 // Half a mass at the tip: 2.8, 0.9, 0.3, 0.1 % for 7, 15, 31, 63 links, the geometric means of what was measured there.
 static double error_of_links(int links) { return 0.028 * std::pow(7.0 / links, 1.5); }
 
-// Free of contact, 0.2 % at a spacing of 17 mm, by its square.
-static double error_of_spacing(double spacing) { return 0.002 * std::pow(spacing / 0.017, 2); }
+double error_of_guides(const HairParams& params, const Scalp& scalp, int guides)
+{
+    // Half a sphere of guides. Free of contact, 0.2 % at a spacing of 17 mm, by its square.
+    const double spacing = std::sqrt(2.0 * std::numbers::pi) * double(scalp.radius) * double(params.head_scale) /
+                           std::sqrt(std::max(1.0, double(guides)));
+    return 0.002 * std::pow(spacing / 0.017, 2);
+}
 
 // Does the style say it, in its file or since?
 static bool pinned(const Hairstyle& style, const char* path)
@@ -203,19 +208,17 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     }
     quality.node_error = error_of_links(p.strand_nodes - 2);
 
-    // Guides: drawn strands between them are off by the square of how far apart they are, so each refinement quarters
-    // it.
-    const double spacing = std::sqrt(2.0 * std::numbers::pi) * double(scalp.radius) * double(p.head_scale) /
-                           std::sqrt(std::max(1.0, double(scalp.positions.size())));
+    // Each refinement of the scalp has about four times as many guides.
     const bool guides_pinned = pinned(style, "interpolation.refine");
+    const int vertices = int(scalp.positions.size());
     for (const int most = most_refinements(scalp); !guides_pinned && p.interpolation_refine < most;)
     {
-        if (error_of_spacing(std::ldexp(spacing, -p.interpolation_refine)) <= tolerance)
+        if (error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) <= tolerance)
             break;
         ++p.interpolation_refine;
     }
-    quality.guide_error = error_of_spacing(std::ldexp(spacing, -p.interpolation_refine));
     const Groom groom = grow(p, scalp);
+    quality.guide_error = error_of_guides(p, scalp, groom.guides);
     note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
     const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");
     HairParams probed = alone(p);

@@ -49,4 +49,8 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
 double measure_time_error(const Device& device, const HairParams& params, const Groom& groom, const Motion& motion,
                           double seconds);
 
+// The error of drawn strands between so many guides on this scalp, free of contact, as a fraction of their length:
+// predicted, by accuracy's second order in the guides' spacing (`coif measure --only A12`).
+double error_of_guides(const HairParams& params, const Scalp& scalp, int guides);
+
 } // namespace coif

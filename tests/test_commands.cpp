@@ -155,6 +155,52 @@ TEST_F(Commands, without_a_display_the_editor_takes_a_picture_and_says_where)
     EXPECT_TRUE(fs::exists(folder / "small.png"));
 }
 
+TEST_F(Commands, advise_prints_a_table_and_writes_the_cheaper_style_beside)
+{
+    write("stiff.toml", "# stiff\n[strand]\nlength = 0.05 # short\nnodes = 6\n[bending]\ndroop = 1.0\n"
+                        "[interpolation]\nstrands = 200\n[grid]\nresolution = 16\n"
+                        "[[collider]] # far away\ncenter = [5.0, 5.0, 5.0]\nradius = 0.1\n");
+    const Result table = coif("advise stiff.toml --seconds 0.1 --apply");
+    ASSERT_EQ(table.status, 0) << table.err;
+    for (const char* words : {"it has", "colliders", "leave out", "self-shadow", "keep", "it lacks", "guides"})
+        EXPECT_NE(table.out.find(words), std::string::npos) << words << " in " << table.out;
+    EXPECT_NE(table.err.find("wrote stiff.lean.toml"), std::string::npos) << table.err;
+    const std::string lean = contents("stiff.lean.toml");
+    EXPECT_EQ(lean.rfind("# stiff\n[strand]\nlength = 0.05 # short\n", 0), 0u) << lean;
+    EXPECT_EQ(lean.find("[[collider]]"), std::string::npos) << lean;
+    EXPECT_EQ(coif("check stiff.lean.toml").status, 0);
+
+    const Result json = coif("advise stiff.toml --seconds 0.1 --tolerance 3% --apply --json");
+    ASSERT_EQ(json.status, 0) << json.err;
+    EXPECT_EQ(json.out.front(), '{');
+    EXPECT_EQ(json.out.substr(json.out.size() - 2), "}\n");
+    EXPECT_EQ(number(json.out, "tolerance"), 0.03);
+    EXPECT_NE(json.out.find("\"written\": \"stiff.lean.toml\""), std::string::npos) << json.out;
+    EXPECT_EQ(contents("stiff.lean.toml"), lean) << "no verdict hangs on a time";
+    EXPECT_LE(number(json.out.substr(json.out.find("together")), "motion"), 0.03);
+
+    std::ofstream(folder / "stiff.lean.toml", std::ios::app) << "# by hand\n";
+    const Result foreign = coif("advise stiff.toml --apply");
+    EXPECT_EQ(foreign.status, 1);
+    EXPECT_NE(foreign.err.find("stiff.lean.toml: is there already"), std::string::npos) << foreign.err;
+}
+
+TEST_F(Commands, advise_refuses_what_makes_no_sense)
+{
+    EXPECT_EQ(coif("advise").status, 2);
+    EXPECT_EQ(coif("advise small.toml -o other.toml").status, 2) << "nothing would be written";
+    for (const char* bad : {"nowhere.toml", "small.toml --tolerance much", "small.toml --tolerance 0",
+                            "small.toml --tolerance -1%", "small.toml --tolerance nan", "small.toml --seconds 0",
+                            "small.toml --motion dance", "small.toml --apply -o no/such/folder.toml",
+                            "small.toml --apply -o small.toml", "small.toml --set strand.length=-1"})
+    {
+        const Result result = coif(std::string("advise ") + bad);
+        EXPECT_EQ(result.status, 1) << bad;
+        EXPECT_EQ(result.out, "") << bad;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << bad << ": " << result.err;
+    }
+}
+
 TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
 {
     EXPECT_EQ(coif("shot").status, 2);

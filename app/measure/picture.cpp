@@ -78,26 +78,6 @@ static Mask hair_in(Renderer& renderer, const Take& take, const Size& size)
     return changed_pixels(image[0], image[1], 8);
 }
 
-static Mask either(const Mask& a, const Mask& b)
-{
-    Mask both = a;
-    for (size_t i = 0; i < both.size(); ++i)
-        both[i] = a[i] || b[i];
-    return both;
-}
-
-// Blocks of which any pixel counts.
-static Mask shrunk(const Mask& mask, int width, int height)
-{
-    const int wide = width / kAfar, high = height / kAfar;
-    Mask small(size_t(wide * high));
-    for (int y = 0; y < high * kAfar; ++y)
-        for (int x = 0; x < wide * kAfar; ++x)
-            if (mask[size_t(y * width + x)])
-                small[size_t(y / kAfar * wide + x / kAfar)] = true;
-    return small;
-}
-
 // Milliseconds of a step, its drawn strands and the picture.
 static double take_ms(Renderer& renderer, const Take& take, const Size& size)
 {
@@ -246,8 +226,8 @@ static std::vector<Row> likeness(const Measuring& with, Renderer& renderer, cons
         row.error = ssim(take.image, reference.image, hair);
         rows.push_back(row);
         row.metric = "over hair from afar";
-        row.error =
-            ssim(shrunk(take.image, kAfar), shrunk(reference.image, kAfar), shrunk(hair, size.width, size.height));
+        row.error = ssim(shrunk(take.image, kAfar), shrunk(reference.image, kAfar),
+                         shrunk(hair, size.width, size.height, kAfar));
         rows.push_back(row);
         row.metric = "over the frame";
         row.error = ssim(take.image, reference.image);

@@ -1,10 +1,9 @@
 #include "app/measure/rows.h"
 
 #include "app/json.h"
+#include "app/table.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace coif
 {
@@ -105,22 +104,7 @@ std::string table_of(const std::vector<Row>& rows)
                          std::isfinite(row.stretch) ? fmt::format("{:.2f} %", 100.0 * row.stretch) : "",
                          std::isfinite(row.penetration_mm) ? fmt::format("{:.2f} mm", row.penetration_mm) : "",
                          shown(row.ns_strand_frame), shown(row.ms), verdict(row)});
-    std::vector<size_t> width(lines[0].size());
-    for (const auto& line : lines)
-        for (size_t c = 0; c < line.size(); ++c)
-            width[c] = std::max(width[c], line[c].size());
-    std::string out;
-    for (const auto& line : lines)
-    {
-        std::string text;
-        for (size_t c = 0; c < line.size(); ++c)
-            // Words to the left, numbers to the right.
-            text += c < 4 || c + 1 == line.size() ? fmt::format("{:<{}}  ", line[c], width[c])
-                                                  : fmt::format("{:>{}}  ", line[c], width[c]);
-        text.erase(text.find_last_not_of(' ') + 1);
-        out += text + "\n";
-    }
-    return out;
+    return aligned(lines, {0, 1, 2, 3, lines[0].size() - 1});
 }
 
 } // namespace coif
