@@ -1,31 +1,37 @@
-// One axis of the 27-voxel box blur (thesis 5.1.3): three runs, along x, y and z, equal the cube. In fixed point, so
-// that the result does not hang on the order of anything.
+// One axis of a box blur of the density: three runs, along x, y and z, equal the cube. The box is so many whole voxels to
+// each side and a part of the next, which gives it any variance (Gwosdek, Grewenig, Bruhn, Weickert. Theoretical
+// foundations of Gaussian convolution by extended box filtering. 2011): a width in metres asks for no whole voxels.
+// Beyond the grid the density is zero.
 //
-// AXIS is 0, 1 or 2; CHUNK voxels along x make a work-item.
+// AXIS is 0, 1 or 2; BOX is one of StepInfo's; CHUNK voxels along x make a work-item.
 #include "chunk.h"
 
-// A third of a sum of voxels, rounded; exact for what is not negative.
-static inline chunk third(chunk sum) { return mul_hi(sum + 1, (chunk)(0x55555556)); }
-
-kernel void blur_density(global const int* density, global int* blurred)
+kernel void blur_density(global const int* density, global int* blurred, constant StepInfo* info)
 {
-    const int i = get_global_id(0) * CHUNK;
+    const int i = get_global_id(0) * CHUNK, reach = (int)info->BOX.x;
     const int x = i % RESOLUTION, y = i / RESOLUTION % RESOLUTION, z = i / RESOLUTION / RESOLUTION;
+    chunk sum = CHUNK_LOAD(density + i), ends = (chunk)(0);
 #if AXIS == 0
-    // Neighbours along x may lie outside the chunk, and outside the row at its ends.
-    int row[CHUNK + 2];
-    CHUNK_STORE(CHUNK_LOAD(density + i), row + 1);
-    row[0] = x > 0 ? density[i - 1] : 0;
-    row[CHUNK + 1] = x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0;
-    const chunk sum = CHUNK_LOAD(row) + CHUNK_LOAD(row + 1) + CHUNK_LOAD(row + 2);
+    chunk left = sum, right = sum;
+    for (int k = 1; k <= reach + 1; ++k)
+    {
+        sum += ends;
+        left = CHUNK_UP(x >= k ? density[i - k] : 0, left);
+        right = CHUNK_DOWN(right, x + CHUNK - 1 + k < RESOLUTION ? density[i + CHUNK - 1 + k] : 0);
+        ends = left + right;
+    }
 #else
     const int along = AXIS == 1 ? y : z;
     const int stride = AXIS == 1 ? RESOLUTION : RESOLUTION * RESOLUTION;
-    chunk sum = CHUNK_LOAD(density + i);
-    if (along > 0)
-        sum += CHUNK_LOAD(density + i - stride);
-    if (along + 1 < RESOLUTION)
-        sum += CHUNK_LOAD(density + i + stride);
+    for (int k = 1; k <= reach + 1; ++k)
+    {
+        sum += ends;
+        ends = (chunk)(0);
+        if (along >= k)
+            ends += CHUNK_LOAD(density + i - k * stride);
+        if (along + k < RESOLUTION)
+            ends += CHUNK_LOAD(density + i + k * stride);
+    }
 #endif
-    CHUNK_STORE(third(sum), blurred + i);
+    CHUNK_STORE(CHUNK_ROUND(info->BOX.y * CHUNK_TO_REAL(sum) + info->BOX.z * CHUNK_TO_REAL(ends)), blurred + i);
 }

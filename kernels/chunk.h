@@ -11,6 +11,9 @@ typedef float16 chunk_real;
 #define CHUNK_STORE(v, p) vstore16(v, 0, p)
 #define CHUNK_STORE_REAL(v, p) vstore16(v, 0, p)
 #define CHUNK_TO_REAL(v) convert_float16(v)
+#define CHUNK_ROUND(v) convert_int16((v) + 0.5f)
+#define CHUNK_UP(first, v) ((chunk)(first, v.s01234567, v.s89ab, v.scd, v.se))
+#define CHUNK_DOWN(v, last) ((chunk)(v.s1, v.s23, v.s4567, v.s89abcdef, last))
 #elif CHUNK == 8
 typedef int8 chunk;
 typedef float8 chunk_real;
@@ -18,6 +21,9 @@ typedef float8 chunk_real;
 #define CHUNK_STORE(v, p) vstore8(v, 0, p)
 #define CHUNK_STORE_REAL(v, p) vstore8(v, 0, p)
 #define CHUNK_TO_REAL(v) convert_float8(v)
+#define CHUNK_ROUND(v) convert_int8((v) + 0.5f)
+#define CHUNK_UP(first, v) ((chunk)(first, v.s0123, v.s45, v.s6))
+#define CHUNK_DOWN(v, last) ((chunk)(v.s1, v.s23, v.s4567, last))
 #else
 typedef int chunk;
 typedef float chunk_real;
@@ -25,7 +31,12 @@ typedef float chunk_real;
 #define CHUNK_STORE(v, p) (*(p) = (v))
 #define CHUNK_STORE_REAL(v, p) (*(p) = (v))
 #define CHUNK_TO_REAL(v) convert_float(v)
+#define CHUNK_ROUND(v) convert_int((v) + 0.5f)
+#define CHUNK_UP(first, v) (first)
+#define CHUNK_DOWN(v, last) (last)
 #endif
+// CHUNK_ROUND is for what is not negative. CHUNK_UP and CHUNK_DOWN move the lanes by one, `first` or `last` coming in;
+// through memory that takes far longer.
 #define CHUNK_LANE(v, lane) (((float*)&(v))[lane])
 
 #endif

@@ -9,11 +9,9 @@ kernel void density_gradient(global const int* density, global float* gradient)
     const int plane = RESOLUTION * RESOLUTION, all = plane * RESOLUTION;
     const chunk zero = (chunk)(0);
 
-    int row[CHUNK + 2];
-    row[0] = x > 0 ? density[i - 1] : 0;
-    row[CHUNK + 1] = x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0;
-    CHUNK_STORE(CHUNK_LOAD(density + i), row + 1);
-    const chunk left = CHUNK_LOAD(row), right = CHUNK_LOAD(row + 2);
+    const chunk here = CHUNK_LOAD(density + i);
+    const chunk left = CHUNK_UP(x > 0 ? density[i - 1] : 0, here);
+    const chunk right = CHUNK_DOWN(here, x + CHUNK < RESOLUTION ? density[i + CHUNK] : 0);
     const chunk below = y > 0 ? CHUNK_LOAD(density + i - RESOLUTION) : zero;
     const chunk above = y + 1 < RESOLUTION ? CHUNK_LOAD(density + i + RESOLUTION) : zero;
     const chunk behind = z > 0 ? CHUNK_LOAD(density + i - plane) : zero;

@@ -56,6 +56,9 @@ typedef struct StepInfo
     float4 grid_corner; // lowest corner of the grid, m; w: side of a voxel, m
     float4 sweep;     // light's sweep: cells moved along (u, v) a slice, length of a ray between slices (m), extinction
                       // per fixed-point unit of density (1/m)
+    float4 light_box; // what blurs the density for light, in voxels: whole ones to each side, the weight of each of
+                      // them and of the two ends beyond them; w: variance
+    float4 push_box;  // what blurs it further for repulsion
     float substep;    // duration, s
     float drag_keep;  // exp(-drag h)
     float drag_gain;  // integral of exp(-drag t) over the substep, s

@@ -59,7 +59,7 @@ void Solver::set_params(const HairParams& params)
     {
         const size_t voxels = grid_voxels(wanted);
         Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
-        for (const char* name : {"density", "blurred", "occupied", "depth"})
+        for (const char* name : {"density", "blurred", "lit", "occupied", "depth"})
             fresh[name] = allocate(device_, voxels * sizeof(int), "the density grid");
         fresh["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
         for (const char* name : {"density", "blurred", "depth"})
@@ -378,14 +378,25 @@ void Solver::step(const std::vector<Substep>& wanted)
     if (!repels && !has_shadow())
         return;
     const size_t chunks = grid_voxels(params_) / size_t(chunk(device_, params_));
-    for (int pass = 0; pass < params_.grid_blur; ++pass)
-        for (const char* axis : {"-D AXIS=0", "-D AXIS=1", "-D AXIS=2"})
-        {
-            launch("blur_density", axis, chunks);
-            std::swap(buffers_["density"], buffers_["blurred"]);
-        }
-    if (repels)
-        launch("density_gradient", "", chunks);
+    const auto blur = [&](const char* box, int axis)
+    {
+        launch("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box), chunks);
+        std::swap(buffers_["density"], buffers_["blurred"]);
+    };
+    for (int axis = 0; axis < 3 && info_.light_box.w > 0.0f; ++axis)
+        blur("light_box", axis);
+    if (!repels)
+        return;
+    const bool further = info_.push_box.w > 0.0f;
+    for (int axis = 0; axis < 3 && further; ++axis)
+    {
+        blur("push_box", axis);
+        if (axis == 0) // light goes on reading what was there before
+            std::swap(buffers_["blurred"], buffers_["lit"]);
+    }
+    launch("density_gradient", "", chunks);
+    if (further)
+        std::swap(buffers_["density"], buffers_["lit"]);
 }
 
 void Solver::draw()

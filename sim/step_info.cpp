@@ -51,6 +51,26 @@ static void set_sweep(StepInfo& info, const HairParams& params, const Groom& gro
     info.body_density = extinction > 0.0 ? int(std::min(3.0 / (extinction * voxel), 1e8)) : 0;
 }
 
+// A box of the given variance, in voxels^2: kernels/blur_density.cl.
+static float4 box_of(double variance)
+{
+    // r whole voxels to each side have the variance r (r + 1) / 3; the ends make up for the rest.
+    const double r = std::floor(std::sqrt(0.25 + 3.0 * variance) - 0.5), voxels = 2.0 * r + 1.0;
+    const double end = 0.5 * (variance * voxels - r * (r + 1.0) * voxels / 3.0) / ((r + 1.0) * (r + 1.0) - variance);
+    const double all = voxels + 2.0 * end;
+    return F4(float(r), float(1.0 / all), float(end / all), float(variance));
+}
+
+// A node is spread as wide as grid.blur says (a standard deviation), part of it by the grid itself: adding to it and
+// reading from it trilinearly have a variance of 1/6 voxel^2 each, the central difference 1/3. Two boxes come near a
+// Gaussian, so that the push does not hang on how the width is shared out; light stops at the first, which keeps the
+// edges of shadows.
+static void set_blur(StepInfo& info, const HairParams& params, double voxel)
+{
+    const double width = params.grid_blur / voxel, rest = std::max(0.0, width * width - 2.0 / 3.0);
+    info.light_box = info.push_box = box_of(0.5 * rest);
+}
+
 // Which nodes feed the density, and with what weight: all of them alike, or of many an even part that weighs as much.
 static void set_density(StepInfo& info, const Groom& groom)
 {
@@ -97,6 +117,7 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     const double voxel = 1.001 * 2.0 * reach / (params.grid_resolution - 1);
     info.grid_corner = vector4(turn * glm::dvec3(groom.middle) - 0.5 * voxel * params.grid_resolution, voxel);
     set_sweep(info, params, groom, voxel);
+    set_blur(info, params, voxel);
     set_density(info, groom);
 
     const double b = params.forces_drag;
@@ -122,10 +143,7 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     info.clearance = kClearance;
     info.parting = 0.15f * groom.extent; // beyond some spacings of the guides, still small against the head
     // Repulsion is the relative change of the density over a tenth of the scalp's extent. The density it is relative to
-    // is that of all nodes spread over the scalp's cube, so the number of guides does not change the force. The grid
-    // does: a node is spread over voxels and the blur is counted in them, so a finer grid pushes nearer and harder
-    // (`coif measure --only grid`: against pairs of nodes a fifth off at 64^3, as much as the force itself at 32^3,
-    // threefold at 128^3).
+    // is that of all nodes spread over the scalp's cube, so the number of guides does not change the force.
     const double spread =
         double(groom.extent) * groom.extent * groom.extent / (double(groom.guides) * (groom.nodes - 1));
     info.repulsion =

@@ -126,18 +126,20 @@ template <typename T> static T value_or_zero(const std::vector<T>& values, int x
     return inside(x) && inside(y) && inside(z) ? values[voxel_at(x, y, z, resolution)] : T(0);
 }
 
-std::vector<int> blur_density(const std::vector<int>& density, int axis, int resolution)
+std::vector<double> blur_density(const std::vector<int>& density, int axis, int resolution, const float4& box)
 {
-    std::vector<int> blurred;
+    std::vector<double> blurred;
+    const int end = int(box.x) + 1;
     for (int z = 0; z < resolution; ++z)
         for (int y = 0; y < resolution; ++y)
             for (int x = 0; x < resolution; ++x)
             {
                 double sum = 0.0;
-                for (int d = -1; d <= 1; ++d)
-                    sum += value_or_zero(density, x + (axis == 0 ? d : 0), y + (axis == 1 ? d : 0),
+                for (int d = -end; d <= end; ++d)
+                    sum += double(std::abs(d) == end ? box.z : box.y) *
+                           value_or_zero(density, x + (axis == 0 ? d : 0), y + (axis == 1 ? d : 0),
                                          z + (axis == 2 ? d : 0), resolution);
-                blurred.push_back(int(std::lround(sum / 3.0)));
+                blurred.push_back(sum);
             }
     return blurred;
 }

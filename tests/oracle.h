@@ -92,8 +92,8 @@ struct Density
 };
 Density add_density(const Strands& strands, int resolution, const StepInfo& info);
 
-// One axis of the box blur, and the central difference (eq. 5.8); zero outside.
-std::vector<int> blur_density(const std::vector<int>& density, int axis, int resolution);
+// One axis of a box blur, unrounded (`box` as in StepInfo), and the central difference (eq. 5.8); zero outside.
+std::vector<double> blur_density(const std::vector<int>& density, int axis, int resolution, const float4& box);
 std::vector<Vec> density_gradient(const std::vector<int>& density, int resolution);
 
 // How far each voxel's centre lies inside the nearest collider's opaque body, in voxels; the body begins 0.7 voxels

@@ -28,7 +28,8 @@ struct Field
 // clang-format off
 #define STEP_FIELDS(X)                                                                                                 \
     X(head_row0) X(head_row1) X(head_row2) X(turn_row0) X(turn_row1) X(turn_row2) X(origin_move) X(head_velocity)      \
-    X(head_center) X(wind) X(gust_origin) X(body_corner) X(grid_corner) X(sweep) X(substep) X(drag_keep) X(drag_gain)  \
+    X(head_center) X(wind) X(gust_origin) X(body_corner) X(grid_corner) X(sweep) X(light_box) X(push_box)       \
+    X(substep) X(drag_keep) X(drag_gain)                                                                               \
     X(gravity) X(stretch) X(relax) X(bend) X(clearance) X(parting) X(repulsion) X(bend_droop) X(bend_modulus)          \
     X(bend_most) X(turning_rate) X(tip_mass) X(acceleration) X(push_out) X(guides) X(drawn_multi) X(drawn)             \
     X(colliders) X(head_colliders) X(teleport) X(last_substep) X(body_density) X(density_stride) X(density_unit)       \

@@ -21,9 +21,9 @@ Hairstyle busy_style()
 {
     // In which every parameter has something to act on. Without the head's mesh, which hair never reads.
     Hairstyle style;
-    for (const char* set :
-         {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "forces.wind=[3, 0, 1]", "forces.repulsion=1",
-          "wave.normal_amplitude=0.01", "wave.binormal_amplitude=0.008", "interpolation.layer=0.01"})
+    for (const char* set : {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "grid.blur=0.05",
+                            "forces.wind=[3, 0, 1]", "forces.repulsion=1", "wave.normal_amplitude=0.01",
+                            "wave.binormal_amplitude=0.008", "interpolation.layer=0.01"})
         assign(style, set);
     return style;
 }

@@ -1,9 +1,10 @@
 // A13: does the repulsion hang on where the grid happens to lie? The same hair, at rest, is asked for its forces in
 // grids moved by fractions of a voxel, and in a mirror; and whether all forces add up to nothing, as those between
 // pairs would.
+#include "app/measure/voxels.h"
+
 #include "app/measure/cost.h"
 #include "app/measure/geodesic.h"
-#include "app/measure/measure.h"
 #include "sim/error.h"
 #include "sim/simulation.h"
 
@@ -18,21 +19,6 @@ namespace coif
 namespace
 {
 constexpr float kFrame = 1.0f / 60.0f;
-using Forces = std::vector<glm::dvec3>; // m/s^2, strand after strand, nodes 1 and outwards
-
-struct Hair // as it hangs
-{
-    HairParams params;
-    Groom groom;
-    std::vector<float> position; // in blocks, as the device has it
-};
-
-struct Probe
-{
-    Forces forces;
-    std::vector<glm::dvec3> nodes; // where they act, m
-    StepInfo info;
-};
 
 struct Noise
 {
@@ -52,10 +38,9 @@ static std::vector<float> positions_of(const Solver& solver)
     return {mapped.as<float>(), mapped.as<float>() + mapped.bytes() / sizeof(float)};
 }
 
-// A style's guides after a second at rest.
-static Hair hair_of(const Measuring& with, const Hairstyle& style)
+Hair hair_of(const Device& device, const Hairstyle& style)
 {
-    Simulation simulation(with.device, style);
+    Simulation simulation(device, style);
     simulation.settle(1.0);
     return {style.params, simulation.solver().groom(), positions_of(simulation.solver())};
 }
@@ -91,24 +76,23 @@ static Hair mirrored(Hair hair)
     return hair;
 }
 
-// The repulsion of every node, in a grid moved by a part of a voxel.
-static Probe probe(const Measuring& with, const Hair& hair, glm::vec3 offset)
+Probe probe_repulsion(const Device& device, const Hair& hair, glm::vec3 offset)
 {
     Groom groom = hair.groom;
     const float voxel = 2.0f * (groom.longest + groom.farthest) / float(hair.params.grid_resolution - 3);
     groom.farthest += voxel; // room for the grid to move in
     groom.middle += offset * voxel;
-    Solver solver(with.device, hair.params, groom, Pose{});
-    write(with.device, solver.buffers().at("position"), hair.position);
+    Solver solver(device, hair.params, groom, Pose{});
+    write(device, solver.buffers().at("position"), hair.position);
     solver.step({{Pose{}, kFrame, kFrame}}); // still without repulsion: there was no density yet
 
     Buffers buffers = solver.buffers();
-    buffers["acceleration"] = allocate(with.device, hair.position.size() * sizeof(float), "the forces");
-    Kernel kernel = load_kernel(with.device, "probe_repulsion",
+    buffers["acceleration"] = allocate(device, hair.position.size() * sizeof(float), "the forces");
+    Kernel kernel = load_kernel(device, "probe_repulsion",
                                 fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={}", groom.nodes,
-                                            hair.params.grid_resolution, with.device.width));
-    run(with.device, kernel, buffers, cl::NDRange(size_t(groom.blocks * LANES / with.device.width)));
-    const std::vector<float> values = read<float>(with.device, buffers.at("acceleration"), hair.position.size());
+                                            hair.params.grid_resolution, device.width));
+    run(device, kernel, buffers, cl::NDRange(size_t(groom.blocks * LANES / device.width)));
+    const std::vector<float> values = read<float>(device, buffers.at("acceleration"), hair.position.size());
     const std::vector<float> position = positions_of(solver);
     Probe found{{}, {}, solver.info()};
     for (int g = 0; g < groom.guides; ++g)
@@ -125,11 +109,6 @@ static Probe probe(const Measuring& with, const Hair& hair, glm::vec3 offset)
     return found;
 }
 
-static Forces forces_in(const Measuring& with, const Hair& hair, glm::vec3 offset)
-{
-    return probe(with, hair, offset).forces;
-}
-
 static double mean_size(const Forces& forces)
 {
     double sum = 0.0;
@@ -138,12 +117,12 @@ static double mean_size(const Forces& forces)
     return sum / double(forces.size());
 }
 
-static double rms_distance(const Forces& a, const Forces& b)
+double difference(const Forces& forces, const Forces& reference)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < a.size(); ++i)
-        sum += glm::dot(a[i] - b[i], a[i] - b[i]);
-    return std::sqrt(sum / double(a.size()));
+    for (size_t i = 0; i < forces.size(); ++i)
+        sum += glm::dot(forces[i] - reference[i], forces[i] - reference[i]);
+    return std::sqrt(sum / double(forces.size())) / mean_size(reference);
 }
 
 static Noise noise_of(const Measuring& with, const Hair& hair)
@@ -151,7 +130,7 @@ static Noise noise_of(const Measuring& with, const Hair& hair)
     Noise noise;
     for (const glm::vec3& offset : kOffsets)
     {
-        noise.forces.push_back(forces_in(with, hair, offset));
+        noise.forces.push_back(probe_repulsion(with.device, hair, offset).forces);
         glm::dvec3 sum(0.0);
         for (const glm::dvec3& f : noise.forces.back())
             sum += f;
@@ -164,13 +143,13 @@ static Noise noise_of(const Measuring& with, const Hair& hair)
             mean[i] += forces[i] / double(std::size(kOffsets));
     double squares = 0.0;
     for (const Forces& forces : noise.forces)
-        squares += std::pow(rms_distance(forces, mean), 2) / double(std::size(kOffsets));
-    noise.placement = std::sqrt(squares) / mean_size(mean);
+        squares += std::pow(difference(forces, mean), 2) / double(std::size(kOffsets));
+    noise.placement = std::sqrt(squares);
 
-    Forces back = forces_in(with, mirrored(hair), {0, 0, 0});
+    Forces back = probe_repulsion(with.device, mirrored(hair), {0, 0, 0}).forces;
     for (glm::dvec3& f : back)
         f.x = -f.x;
-    noise.asymmetry = rms_distance(back, noise.forces[0]) / mean_size(mean);
+    noise.asymmetry = difference(back, noise.forces[0]);
     return noise;
 }
 
@@ -216,19 +195,18 @@ std::vector<Row> measure_voxels(const Measuring& with)
     {
         if (with.quick && std::string(name) != "bob")
             continue;
-        judge(name, hair_of(with, load_hairstyle(find_style(name))));
+        judge(name, hair_of(with.device, load_hairstyle(find_style(name))));
     }
     const int many = with.quick ? 8192 : 32768;
     judge(fmt::format("{} guides", many), crowd(with, load_hairstyle(find_style("bob")), many));
     return rows;
 }
 
-// The forces without a grid: each node pushes each other one down the slope of a Gaussian as wide as the style's own
-// grid spreads a node. Its variance along each axis, in voxels: to and from the grid 1/6 each, the central difference
-// 1/3, a blur 2/3.
-static Forces pair_forces(const std::vector<glm::dvec3>& nodes, const StepInfo& info, int blur)
+// The forces without a grid: each node pushes each other one down the slope of a Gaussian as wide as the style asks
+// for.
+static Forces pair_forces(const std::vector<glm::dvec3>& nodes, const StepInfo& info, double blur)
 {
-    const double voxel = info.grid_corner.w, variance = 2.0 / 3.0 * (1 + blur) * voxel * voxel;
+    const double voxel = info.grid_corner.w, variance = blur * blur;
     const double volume = std::pow(2.0 * std::numbers::pi * variance, 1.5);
     // From density a voxel and its difference from voxel to voxel to density and slope.
     const double strength = double(info.repulsion) * DENSITY_ONE * std::pow(voxel, 4.0) / (volume * variance);
@@ -251,38 +229,39 @@ static Forces pair_forces(const std::vector<glm::dvec3>& nodes, const StepInfo& 
 
 std::vector<Row> measure_grid(const Measuring& with)
 {
-    Hair hair = hair_of(with, load_hairstyle(find_style("bob")));
-    const int own = hair.params.grid_resolution, own_blur = hair.params.grid_blur;
+    Hair hair = hair_of(with.device, load_hairstyle(find_style("bob")));
+    const int own = hair.params.grid_resolution;
+    const float own_blur = hair.params.grid_blur;
     with.progress("reference");
-    const Probe at_rest = probe(with, hair, {0, 0, 0});
+    const Probe at_rest = probe_repulsion(with.device, hair, {0, 0, 0});
     const Forces reference = pair_forces(at_rest.nodes, at_rest.info, own_blur);
 
     // Each knob alone, from where the style has it.
     struct Setting
     {
         const char* knob;
-        int resolution, blur;
+        int resolution;
+        float blur;
     };
     std::vector<Setting> settings;
     for (const int resolution :
          with.quick ? std::vector<int>{16, 32, 64, 128} : std::vector<int>{8, 16, 24, 32, 48, 64, 96, 128})
         settings.push_back({"grid resolution", resolution, own_blur});
-    for (const int blur : {0, 1, 2, 4, 8})
+    for (const float blur : {0.0f, 0.01f, 0.015f, 0.02f, 0.03f, 0.05f})
         settings.push_back({"grid blur", own, blur});
 
     std::vector<Row> rows;
     Solvers solvers;
     for (const Setting& setting : settings)
     {
-        with.progress(fmt::format("{}^3 voxels, blurred {} times", setting.resolution, setting.blur));
+        with.progress(fmt::format("{}^3 voxels, blurred by {} m", setting.resolution, setting.blur));
         hair.params.grid_resolution = setting.resolution;
         hair.params.grid_blur = setting.blur;
         const Noise noise = noise_of(with, hair);
-        Row row =
-            row_of("grid", "bob", "force error", rms_distance(noise.forces[0], reference) / mean_size(reference), hair);
+        Row row = row_of("grid", "bob", "force error", difference(noise.forces[0], reference), hair);
         row.knob = setting.knob;
-        row.value = setting.knob == std::string("grid blur") ? setting.blur : setting.resolution;
-        row.reference = fmt::format("all pairs, as wide as {}^3 voxels spread a node", own);
+        row.value = setting.knob == std::string("grid blur") ? double(setting.blur) : setting.resolution;
+        row.reference = fmt::format("all pairs, {} m wide", own_blur);
         solvers.push_back(std::make_unique<Solver>(with.device, hair.params, hair.groom, Pose{}));
         rows.push_back(row);
         row.metric = "placement noise";

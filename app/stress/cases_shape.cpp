@@ -182,7 +182,7 @@ Outcome grid(const Ground& ground)
         HairParams params = lone(kind);
         params.forces_repulsion = 20.0f;
         params.grid_resolution = 8;
-        params.grid_blur = 8;
+        params.grid_blur = 0.05f;
         Trial tiny(ground, params, ball(64, 16, 0.3), {{{0, 0, 0}, 0.1f, true}});
         shake(tiny);
         judge(outcome, "a grid of 8", tiny);

@@ -317,6 +317,44 @@ void expect_all_hair_in_grid(const Scalp& scalp, const char* name)
     }
 }
 
+// What a box's weights add up to, and their variance.
+std::pair<double, double> moments(const float4& box)
+{
+    double all = 0.0, squares = 0.0;
+    const int end = int(box.x) + 1;
+    for (int k = -end; k <= end; ++k)
+    {
+        const double weight = std::abs(k) == end ? double(box.z) : double(box.y);
+        all += weight;
+        squares += weight * k * k;
+    }
+    return {all, squares};
+}
+
+TEST(StepInfo, boxes_and_grid_together_spread_a_node_as_wide_as_asked_in_any_grid)
+{
+    HairParams params;
+    for (const float width : {0.0f, 0.004f, 0.015f, 0.05f})
+        for (int resolution = 8; resolution <= 128; ++resolution)
+        {
+            params.grid_blur = width;
+            params.grid_resolution = resolution;
+            const StepInfo info = info_of(params);
+            double variance = 2.0 / 3.0;
+            for (const float4& box : {info.light_box, info.push_box})
+            {
+                const auto [all, own] = moments(box);
+                EXPECT_NEAR(all, 1.0, 1e-6);
+                EXPECT_NEAR(own, box.w, 1e-5 * own);
+                EXPECT_GE(box.z, 0.0f);
+                EXPECT_LE(box.z, box.y);
+                variance += own;
+            }
+            const double wanted = std::pow(width / info.grid_corner.w, 2);
+            EXPECT_NEAR(variance, std::max(wanted, 2.0 / 3.0), 1e-5 * variance) << width << " m in " << resolution;
+        }
+}
+
 TEST(StepInfo, the_grid_holds_every_point_that_hair_can_reach_wherever_the_head_turns)
 {
     for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
