@@ -366,7 +366,7 @@ void Editor::handle(const SDL_Event& event)
 
 void Editor::advance(double seconds)
 {
-    const bool played = simulation_->playing();
+    const bool played = simulation_->playing(), slept = simulation_->solver().asleep();
     bool stepped = step_once_;
     if (step_once_)
         simulation_->step(hand_);
@@ -378,8 +378,8 @@ void Editor::advance(double seconds)
         hand_ = simulation_->hand();
     camera_.target += simulation_->jumped() - jumped_; // a teleport takes the view along
     jumped_ = simulation_->jumped();
-    if (stepped)
-        redraw_ = std::max(redraw_, 1);
+    if (stepped && !(slept && simulation_->solver().asleep())) // hair that sleeps looks as it did
+        redraw_ = std::max(redraw_, 2);                        // the figures take another to fit their window
     step_once_ = false;
 }
 
@@ -397,7 +397,7 @@ void Editor::note_resets()
 bool Editor::frame()
 {
     SDL_Event event;
-    if (redraw_ <= 0 && SDL_WaitEventTimeout(&event, paused_ ? kIdleWait : 1))
+    if (redraw_ <= 0 && SDL_WaitEventTimeout(&event, paused_ || simulation_->solver().asleep() ? kIdleWait : 1))
         handle(event);
     while (SDL_PollEvent(&event))
         handle(event);

@@ -62,6 +62,7 @@ class Editor
     void draw_tools();
     void draw_dialogs();
     void draw_status();
+    void draw_quality(float top);
     void take(const std::filesystem::path& file); // opens without asking
     void reset_hair();
     void note_resets();

@@ -126,6 +126,31 @@ void Editor::draw_tools()
     ImGui::Checkbox("transparent", &transparent_);
 }
 
+// What a tolerance has chosen: in a line, and in full when that is opened.
+void Editor::draw_quality(float top)
+{
+    const Quality& quality = simulation_->quality();
+    ImGui::SetNextWindowPos(ImVec2(8.0f, top));
+    ImGui::SetNextWindowBgAlpha(0.35f);
+    ImGui::Begin("quality", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove);
+    const std::string line = quality.rungs.empty() ? "tolerance: nothing chosen"
+                                                   : fmt::format("predicted {:.2g} %, measured substeps {:.2g} %",
+                                                                 100.0 * quality.predicted(), 100.0 * time_error_);
+    if (ImGui::TreeNodeEx("###quality", ImGuiTreeNodeFlags_SpanAvailWidth, "%s", line.c_str()))
+    {
+        ImGui::PushTextWrapPos(440.0f);
+        ImGui::TextUnformatted(quality_text(quality).c_str());
+        if (!quality.rungs.empty())
+            ImGui::Text("measured in %s: substeps %.2g %%, against eight times as many", measured_motion_.c_str(),
+                        100.0 * time_error_);
+        ImGui::PopTextWrapPos();
+        ImGui::TreePop();
+    }
+    ImGui::End();
+}
+
 void Editor::draw_status()
 {
     const Solver& solver = simulation_->solver();
@@ -144,11 +169,6 @@ void Editor::draw_status()
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
     if (simulation_->solver().asleep())
         ImGui::Text("asleep: at rest, nothing runs");
-    const Quality& quality = simulation_->quality();
-    if (!quality.said.empty())
-        ImGui::TextUnformatted(quality_text(quality).c_str());
-    if (!quality.rungs.empty())
-        ImGui::Text("measured in %s: substeps %.2g %%", measured_motion_.c_str(), 100.0 * time_error_);
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     double sum = 0.0;
@@ -160,7 +180,10 @@ void Editor::draw_status()
     ImGui::TextDisabled("%-20s %6.2f ms", "all passes", sum);
     ImGui::TextDisabled("%s", device_.name.c_str());
     ImGui::TextDisabled("%s", renderer_->name().c_str());
+    const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
+    if (!simulation_->quality().said.empty())
+        draw_quality(below);
 
     if (!message_.empty())
     {

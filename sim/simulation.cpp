@@ -264,7 +264,6 @@ int Simulation::advance(double seconds, const Pose& hand, int most)
     const long due = long(owed_ / h + 1e-9);
     const int taken = int(std::min<long>(due, most));
     owed_ -= double(due) * h;
-    dropped_ += due - taken;
     const Pose from = hand_;
     bool with_hand = true;
     for (int i = 1; i <= taken; ++i)
@@ -275,6 +274,8 @@ int Simulation::advance(double seconds, const Pose& hand, int most)
                        : hand_);
         with_hand &= played == playing(); // a script that ends has moved the hand's frame
     }
+    if (!solver_->asleep()) // steps of hair that sleeps would have been nothing
+        dropped_ += due - taken;
     return taken;
 }
 
