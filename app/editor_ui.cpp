@@ -27,6 +27,9 @@ static const char kHelp[] = "drag the head         move it\n"
                             "g                     drawn strands, guides, both\n"
                             "k                     keep the camera in the style\n"
                             "p, F12                screenshot\n"
+                            "ctrl-z                undo\n"
+                            "ctrl-shift-z, ctrl-y  redo\n"
+                            "u                     what was done, to go back to\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
@@ -57,7 +60,33 @@ void Editor::draw_ui()
         ImGui::End();
     }
     draw_status();
+    if (show_history_)
+        draw_history();
     draw_dialogs();
+}
+
+// All that was done, the newest last; what was undone is grey.
+void Editor::draw_history()
+{
+    const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
+    ImGui::SetNextWindowPos(right_top, ImGuiCond_Appearing, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(0.8f);
+    if (ImGui::Begin("what was done", &show_history_))
+        for (size_t i = 0; i < history_.edits.size(); ++i)
+        {
+            ImGui::PushID(int(i));
+            const bool undone = i > history_.now;
+            if (undone)
+                ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+            const bool chosen = ImGui::Selectable(history_.edits[i].what.c_str(), i == history_.now);
+            if (undone)
+                ImGui::PopStyleColor();
+            ImGui::PopID();
+            if (chosen)
+                go_back(i);
+        }
+    ImGui::End();
 }
 
 void Editor::draw_tools()
@@ -90,6 +119,11 @@ void Editor::draw_tools()
     ImGui::SameLine();
     if (ImGui::Button("Step"))
         paused_ = step_once_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Undo"))
+        undo_last();
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("ctrl-z; redo: ctrl-shift-z; all that was done: u");
     ImGui::SameLine();
     if (ImGui::Button("Reset hair"))
         reset_hair();
