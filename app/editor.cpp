@@ -102,6 +102,7 @@ Editor::~Editor()
 
 void Editor::apply()
 {
+    comparing_ = false;
     guarded([&] { simulation_->set_style(style_); });
     style_ = simulation_->style(); // the last good one, if that failed
     unsaved_ = false;
@@ -149,6 +150,16 @@ void Editor::go_back(size_t edit)
     apply();
     if (!difference(style_, state.style).empty()) // it cannot be had again: its meshes may be gone
         history_.now = before;
+}
+
+// While it is on, the hair is as it was saved, in the same motion.
+void Editor::compare(bool on)
+{
+    if (on == comparing_)
+        return;
+    comparing_ = on;
+    guarded([&] { simulation_->set_style(on ? saved_ : style_); });
+    redraw_ = kRedraw;
 }
 
 void Editor::undo_last()
@@ -289,6 +300,9 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_F12:
         screenshot();
         break;
+    case SDLK_c:
+        compare(true);
+        break;
     case SDLK_u:
         show_history_ = !show_history_;
         break;
@@ -381,6 +395,10 @@ void Editor::handle(const SDL_Event& event)
     case SDL_KEYDOWN:
         if (!io.WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) // a dialog has the keyboard
             handle_key(event.key.keysym);
+        break;
+    case SDL_KEYUP:
+        if (event.key.keysym.sym == SDLK_c)
+            compare(false);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEWHEEL:

@@ -29,6 +29,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "p, F12                screenshot\n"
                             "ctrl-z                undo\n"
                             "ctrl-shift-z, ctrl-y  redo\n"
+                            "c, held               as saved\n"
                             "u                     what was done, to go back to\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
@@ -196,6 +197,8 @@ void Editor::draw_status()
     ImGui::Begin("figures", nullptr, plain);
     ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3),
                 paused_ ? ", paused" : "");
+    if (comparing_)
+        ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.4f, 1.0f), "as saved");
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
     ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
                 100.0 * health_.stretch_mean);

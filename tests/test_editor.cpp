@@ -202,6 +202,25 @@ TEST_F(EditorWindow, a_drag_on_a_slider_is_one_edit_that_can_be_taken_back_and_d
     EXPECT_FALSE(editor->unsaved());
 }
 
+TEST_F(EditorWindow, while_c_is_held_the_hair_is_as_it_was_saved)
+{
+    const float saved = editor->style().params.strand_length;
+    const WidgetPlace place = editor->panel().places.at("strand.length");
+    const double y = 0.5 * (place.top + place.bottom), width = place.right - place.left;
+    drag(place.left + 0.3 * width, y, place.left + 0.7 * width, y);
+    release();
+    const float edited = editor->style().params.strand_length;
+    ASSERT_NE(edited, saved);
+    const auto shown = [&] { return editor->simulation().solver().groom().longest; };
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("keydown c");
+    EXPECT_TRUE(until([&] { return shown() == saved; }));
+    EXPECT_EQ(editor->style().params.strand_length, edited);
+    xdotool("keyup c");
+    EXPECT_TRUE(until([&] { return shown() == edited; }));
+    EXPECT_TRUE(editor->unsaved());
+}
+
 TEST_F(EditorWindow, a_screenshot_key_writes_a_picture_of_the_view)
 {
     xdotool("mousemove " + at(100.0, 650.0));
