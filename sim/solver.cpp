@@ -457,6 +457,14 @@ std::vector<float> Solver::multipliers() const
 std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
 
+double sum_of(const PassTimes& times)
+{
+    double ms = 0.0;
+    for (const auto& [pass, spent] : times)
+        ms += spent;
+    return ms;
+}
+
 PassTimes Solver::take_times()
 {
     device_.queue.finish();

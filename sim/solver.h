@@ -26,6 +26,9 @@ struct Substep
 
 // Milliseconds that the device spent in a pass since the last take_times().
 using PassTimes = std::vector<std::pair<std::string, double>>;
+double sum_of(const PassTimes& times);
+
+constexpr float kPushOut = 0.5f; // m/s at which hair that starts inside a body leaves it
 
 // Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
 // positions back; nothing in between touches the host.
