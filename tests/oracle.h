@@ -17,6 +17,7 @@ namespace coif::oracle
 {
 
 using Vec = glm::dvec3;
+inline Vec xyz(float4 v) { return {v.x, v.y, v.z}; }
 
 struct Strands
 {
