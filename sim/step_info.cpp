@@ -1,6 +1,6 @@
-// Fills StepInfo: everything that the kernels need of one substep, in one place.
+#include "sim/step_info.h"
+
 #include "sim/material.h"
-#include "sim/solver.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
