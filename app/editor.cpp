@@ -13,11 +13,10 @@
 namespace coif
 {
 
-static constexpr int kPanelWidth = 400; // pixels of the window
-static constexpr int kMostSteps = 4;    // in one frame; what is over is dropped and counted
-static constexpr double kSettle = 1.5;  // s that a style lives before it is first seen
-static constexpr Uint32 kIdleWait = 50; // ms between looks at a paused window
-static constexpr int kRedraw = 3;       // frames after an event: a window of the panel needs two to find its size
+static constexpr int kPanelWidth = 400;            // pixels of the window
+static constexpr int kMostSteps = 4;               // in one frame; what is over is dropped and counted
+static constexpr double kSettle = 1.5;             // s that a style lives before it is first seen
+static constexpr Uint32 kIdleWait = 50;            // ms between looks at a paused window
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
 // When a file was last written, as far as can be told.
@@ -28,7 +27,7 @@ static std::filesystem::file_time_type written_at(const std::filesystem::path& f
     return error ? std::filesystem::file_time_type::min() : time;
 }
 
-template <typename Action> void Editor::guarded(Action&& action)
+void Editor::guarded(const std::function<void()>& action)
 {
     try
     {
@@ -257,162 +256,6 @@ void Editor::measure_quality()
     const Motion motion = find_motion(motion_);
     time_error_ = measure_time_error(device_, simulation_->params(), simulation_->solver().groom(), motion,
                                      std::min(motion.seconds, 2.0));
-}
-
-void Editor::handle_key(const SDL_Keysym& key)
-{
-    const bool control = key.mod & KMOD_CTRL, shift = key.mod & KMOD_SHIFT;
-    redraw_ = kRedraw;
-    if (control && key.sym == SDLK_s)
-    {
-        if (shift || style_.file.empty())
-            ask_save_as_ = true;
-        else
-            save(style_.file);
-        return;
-    }
-    if (control && ((key.sym == SDLK_z && shift) || key.sym == SDLK_y))
-        go_back(history_.now + 1);
-    else if (control && key.sym == SDLK_z)
-        undo_last();
-    else if (control && key.sym == SDLK_o)
-        ask_open_ = true;
-    else if (control && key.sym == SDLK_q)
-        carry_out(Close{});
-    if (control)
-        return;
-    const std::vector<std::string> motions = motion_names();
-    const int number = int(key.sym) - SDLK_1;
-    if (number >= 0 && number < int(std::min<size_t>(motions.size(), 9)))
-        play(motions[size_t(number)]);
-    switch (key.sym)
-    {
-    case SDLK_SPACE:
-        paused_ = !paused_;
-        break;
-    case SDLK_PERIOD:
-        paused_ = step_once_ = true;
-        break;
-    case SDLK_r:
-        reset_hair();
-        break;
-    case SDLK_p:
-    case SDLK_F12:
-        screenshot();
-        break;
-    case SDLK_c:
-        compare(true);
-        break;
-    case SDLK_u:
-        show_history_ = !show_history_;
-        break;
-    case SDLK_f:
-        frame_head(camera_, *simulation_);
-        break;
-    case SDLK_g:
-        style_.params.render_show = (style_.params.render_show + 1) % 3;
-        apply();
-        break;
-    case SDLK_k:
-        keep_view();
-        break;
-    case SDLK_F5:
-        guarded([&] { renderer_->reload_shaders(); });
-        break;
-    case SDLK_TAB:
-        show_panel_ = !show_panel_;
-        break;
-    case SDLK_h:
-    case SDLK_F1:
-        show_help_ = !show_help_;
-        break;
-    case SDLK_ESCAPE:
-        simulation_->play(std::nullopt);
-        show_help_ = false;
-        break;
-    default:
-        break;
-    }
-}
-
-void Editor::handle_mouse(const SDL_Event& event)
-{
-    if (event.type == SDL_MOUSEBUTTONDOWN && held_.what == Grab::NONE)
-    {
-        const double x = event.button.x, y = event.button.y;
-        const SDL_Keymod mod = SDL_GetModState();
-        if (event.button.button == SDL_BUTTON_LEFT && event.button.clicks == 2)
-            frame_head(camera_, *simulation_);
-        else if (event.button.button == SDL_BUTTON_LEFT)
-            held_ = grab(*simulation_, camera_, x, y, view_width_, view_height_, mod & (KMOD_CTRL | KMOD_SHIFT));
-        else
-            held_.what = event.button.button == SDL_BUTTON_RIGHT ? Grab::ORBIT : Grab::PAN;
-    }
-    else if (event.type == SDL_MOUSEBUTTONUP)
-        held_.what = Grab::NONE;
-    else if (event.type == SDL_MOUSEWHEEL)
-        zoom(camera_, event.wheel.y);
-    else if (event.type == SDL_MOUSEMOTION)
-    {
-        const double x = event.motion.x, y = event.motion.y;
-        if (held_.what == Grab::ORBIT)
-            orbit(camera_, event.motion.xrel, event.motion.yrel);
-        else if (held_.what == Grab::PAN)
-            pan(camera_, event.motion.xrel, event.motion.yrel, view_height_);
-        else if (held_.what == Grab::COLLIDER)
-        {
-            Collider& collider = style_.host.colliders.at(held_.collider);
-            const glm::vec3 center = dragged_collider(held_, *simulation_, camera_, x, y, view_width_, view_height_);
-            if (collider.to)
-                collider.to = glm::clamp(*collider.to + center - collider.center, -100.0f, 100.0f);
-            collider.center = center;
-            apply();
-        }
-        else if (held_.what != Grab::NONE)
-            hand_ = dragged_head(held_, camera_, x, y, view_width_, view_height_);
-    }
-    redraw_ = kRedraw;
-}
-
-void Editor::handle(const SDL_Event& event)
-{
-    ImGui_ImplSDL2_ProcessEvent(&event);
-    const ImGuiIO& io = ImGui::GetIO();
-    redraw_ = kRedraw;
-    switch (event.type)
-    {
-    case SDL_QUIT:
-        carry_out(Close{});
-        break;
-    case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_CLOSE)
-            carry_out(Close{});
-        break;
-    case SDL_DROPFILE:
-        open(event.drop.file);
-        SDL_free(event.drop.file);
-        break;
-    case SDL_KEYDOWN:
-        if (!io.WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) // a dialog has the keyboard
-            handle_key(event.key.keysym);
-        break;
-    case SDL_KEYUP:
-        if (event.key.keysym.sym == SDLK_c)
-            compare(false);
-        break;
-    case SDL_MOUSEBUTTONDOWN:
-    case SDL_MOUSEWHEEL:
-        if (!io.WantCaptureMouse)
-            handle_mouse(event);
-        break;
-    case SDL_MOUSEBUTTONUP:
-    case SDL_MOUSEMOTION:
-        if (held_.what != Grab::NONE)
-            handle_mouse(event);
-        break;
-    default:
-        break;
-    }
 }
 
 void Editor::advance(double seconds)

@@ -8,7 +8,7 @@
 
 #include <SDL.h>
 
-#include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -55,6 +55,8 @@ class Editor
     };
     using Intent = std::variant<std::monostate, Close, std::filesystem::path>; // what waits for unsaved changes
 
+    static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
+
     void measure_quality();
     void handle(const SDL_Event& event);
     void handle_key(const SDL_Keysym& key);
@@ -75,7 +77,7 @@ class Editor
     void undo_last();
     void go_back(size_t edit); // or forth, to that state of history_
     void carry_out(const Intent& intent);
-    template <typename Action> void guarded(Action&& action); // errors become the message
+    void guarded(const std::function<void()>& action); // errors become the message
 
     Window window_;
     Device device_;

@@ -51,6 +51,19 @@ Hairstyle load_style(const Options& options)
     return style;
 }
 
+std::vector<size_t> selected(const std::vector<std::string>& only, const std::vector<std::string>& names,
+                             const char* what)
+{
+    for (const std::string& name : only)
+        if (!std::ranges::count(names, name))
+            throw fail("--only {}: there is no such {}; there are {}", name, what, fmt::join(names, ", "));
+    std::vector<size_t> indices;
+    for (size_t i = 0; i < names.size(); ++i)
+        if (only.empty() || std::ranges::count(only, names[i]))
+            indices.push_back(i);
+    return indices;
+}
+
 Device open_device(const Options& options) { return open_device(options.device, data_folder() / "kernels"); }
 
 } // namespace coif

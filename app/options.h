@@ -29,4 +29,9 @@ Hairstyle load_style(const Options& options);
 
 Device open_device(const Options& options);
 
+// What --only asks for, as indices of `names` in rising order; all if it asks for nothing. Throws Error naming them all
+// where it asks for another; `what` says what they are, such as "scene".
+std::vector<size_t> selected(const std::vector<std::string>& only, const std::vector<std::string>& names,
+                             const char* what);
+
 } // namespace coif

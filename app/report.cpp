@@ -1,9 +1,9 @@
 #include "app/report.h"
 
 #include "app/json.h"
-#include "app/statistics.h"
 #include "sim/error.h"
 #include "sim/health.h"
+#include "sim/median.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,20 +1,13 @@
 #include "app/statistics.h"
 
+#include "sim/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace coif
 {
-
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double percentile(std::vector<double> values, double share)
 {

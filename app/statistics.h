@@ -6,9 +6,6 @@
 namespace coif
 {
 
-// The middle value; the upper one of two; 0 of none.
-double median(std::vector<double> values);
-
 // The value that `share` (0 to 1) of all values lie at or below, interpolated between ranks; 0 of none.
 double percentile(std::vector<double> values, double share);
 

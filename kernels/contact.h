@@ -4,37 +4,6 @@
 #define COIF_CONTACT_H
 #include "lanes.h"
 
-// Is it so in any lane? PoCL's any() tests lane after lane, which costs more than what it decides about.
-static inline int any_lane(whole test)
-{
-#if WIDTH == 16
-    const int8 in8 = test.lo | test.hi;
-    const int4 in4 = in8.lo | in8.hi;
-    const int2 in2 = in4.lo | in4.hi;
-    return in2.x | in2.y;
-#elif WIDTH == 8
-    const int4 in4 = test.lo | test.hi;
-    const int2 in2 = in4.lo | in4.hi;
-    return in2.x | in2.y;
-#else
-    return test;
-#endif
-}
-
-// The smallest lane.
-static inline float least(real v)
-{
-    float lanes[WIDTH];
-    LANES_STORE(v, lanes);
-    float low = lanes[0];
-#pragma unroll
-    for (int lane = 1; lane < WIDTH; ++lane)
-        low = fmin(low, lanes[lane]);
-    return low;
-}
-
-static inline float greatest(real v) { return -least(-v); }
-
 // The point of a capsule's axis that is nearest to (x, y, z). Ericson, Real-Time Collision Detection, 2005, 5.1.2.
 static inline void nearest_on_axis(Capsule capsule, real x, real y, real z, real* cx, real* cy, real* cz)
 {

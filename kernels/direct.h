@@ -5,7 +5,6 @@
 // a float holds the small difference, not the large sum.
 #ifndef COIF_DIRECT_H
 #define COIF_DIRECT_H
-#include "contact.h"
 #include "drawn_lanes.h"
 
 static inline float inverse_mass(int node, float tip_mass)

@@ -38,4 +38,35 @@ typedef uint bits;
 // On CPUs 1 / sqrt(x) is faster than rsqrt(x) and rounds the same everywhere.
 #define INVERSE_SQRT(x) (1.0f / sqrt(x))
 
+// Is it so in any lane? PoCL's any() tests lane after lane, which costs more than what it decides about.
+static inline int any_lane(whole test)
+{
+#if WIDTH == 16
+    const int8 in8 = test.lo | test.hi;
+    const int4 in4 = in8.lo | in8.hi;
+    const int2 in2 = in4.lo | in4.hi;
+    return in2.x | in2.y;
+#elif WIDTH == 8
+    const int4 in4 = test.lo | test.hi;
+    const int2 in2 = in4.lo | in4.hi;
+    return in2.x | in2.y;
+#else
+    return test;
+#endif
+}
+
+// The smallest lane.
+static inline float least(real v)
+{
+    float lanes[WIDTH];
+    LANES_STORE(v, lanes);
+    float low = lanes[0];
+#pragma unroll
+    for (int lane = 1; lane < WIDTH; ++lane)
+        low = fmin(low, lanes[lane]);
+    return low;
+}
+
+static inline float greatest(real v) { return -least(-v); }
+
 #endif

@@ -24,7 +24,8 @@ struct alignas(16) float4
 };
 constexpr float4 F4(float x, float y, float z, float w) { return {x, y, z, w}; }
 #else
-#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help) COIF_TYPE_##kind group##_##name;
+#define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)                       \
+    COIF_TYPE_##kind group##_##name;
 #endif
 
 // What the artist authored; on the device with angles in radians, colours linear and directions of unit length.
@@ -35,8 +36,8 @@ typedef struct HairParams
 #undef COIF_PARAM
 #undef COIF_HOST
 
-// What one substep needs besides, filled by make_step_info() in sim/solver.cpp and nowhere else. Positions are relative
-// to the head's origin along the world's axes (m), velocities the world's (m/s).
+// What one substep needs besides, filled by make_step_info() of sim/step_info.h and nowhere else. Positions are
+// relative to the head's origin along the world's axes (m), velocities the world's (m/s).
 typedef struct StepInfo
 {
     float4 head_row0; // rotation of the head at the end of the substep, row by row: world = row . local

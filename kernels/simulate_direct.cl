@@ -9,7 +9,7 @@
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
 // (with CONTACT) and DENSITY are build options.
-#include "bodies.h"
+#include "bodies_contact.h"
 #include "direct.h"
 #include "faults.h"
 #include "forces.h"

@@ -207,7 +207,8 @@ static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along
     const auto at = [&](double s) // s: along the axis, m
     {
         const double share = s / double(p.strand_length), turns = 2.0 * std::numbers::pi * s;
-        const auto onset = [&](double begin) // as kernels/strand_curve.h lets waves set in
+        // As kernels/strand_curve.h lets waves set in; said again, because that speaks float only, as GLSL does.
+        const auto onset = [&](double begin)
         {
             const double u = std::clamp(4.0 * (share - begin), 0.0, 1.0);
             return u * u * (3.0 - 2.0 * u);

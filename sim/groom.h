@@ -37,6 +37,13 @@ struct Groom
 // params.interpolation_seed. Throws Error where interpolation.refine asks for too many.
 Groom grow(const HairParams& params, const Scalp& scalp);
 
+// A vector of values laid out [block][node][axis][lane], as guides' positions are.
+inline glm::dvec3 vector_at(const float* values, int strand, int node, int nodes)
+{
+    const float* at = values + strand_value(strand, node, 0, nodes);
+    return {at[0], at[LANES], at[2 * LANES]};
+}
+
 // A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are
 // left to the caller. `directions` are all guides' root directions.
 DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights);

@@ -47,6 +47,9 @@ void save_hairstyle(Hairstyle& style, const std::filesystem::path& target);
 // Writes `bytes` beside `file` and renames over it. Throws Error when the folder cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& bytes);
 
+// Makes a folder and those above it, where there are none. Throws Error when it cannot.
+void make_folder(const std::filesystem::path& folder);
+
 // Reads a whole file. Throws Error for what is missing, no plain file, or larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& file, size_t limit = size_t(1) << 30);
 

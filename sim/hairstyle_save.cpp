@@ -26,6 +26,14 @@ std::string read_file(const fs::path& file, size_t limit)
     return std::move(text).str();
 }
 
+void make_folder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw fail("{}: the folder cannot be made: {}", folder.string(), error.message());
+}
+
 void write_file(const fs::path& file, const std::string& bytes)
 {
     // Through a link the file that it names is replaced, not the link.

@@ -35,11 +35,7 @@ Health measure_health(const Solver& solver, const HairParams& params, bool drawn
     double sum = 0.0;
     for (int g = 0; g < groom.guides; ++g)
     {
-        const auto node = [&](int k)
-        {
-            return glm::vec3(x[strand_value(g, k, 0, groom.nodes)], x[strand_value(g, k, 1, groom.nodes)],
-                             x[strand_value(g, k, 2, groom.nodes)]);
-        };
+        const auto node = [&](int k) { return glm::vec3(vector_at(x, g, k, groom.nodes)); };
         const double rest = double(groom.segment_length[size_t(g)]) * params.strand_spacing;
         for (int k = 2; k < groom.nodes; ++k)
         {

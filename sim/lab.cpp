@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/median.h"
 
 #include <glm/geometric.hpp>
 
@@ -102,10 +103,7 @@ double Lab::frame()
         solver_.step({{way(1.0), begin + h, float(h), way}});
     }
     ++frames_;
-    double ms = 0.0;
-    for (const auto& [pass, of_pass] : solver_.take_times())
-        ms += of_pass;
-    return 1e6 * ms / copies_;
+    return 1e6 * sum_of(solver_.take_times()) / copies_;
 }
 
 void Lab::look(LabRun& run) const
@@ -113,13 +111,7 @@ void Lab::look(LabRun& run) const
     const Mapped position = solver_.guide_positions(),
                  velocity(device_, solver_.buffers().at("velocity"), position.bytes());
     const double rest = strand_.length / (strand_.nodes - 1);
-    const auto first = [&](const Mapped& from, int k)
-    {
-        glm::dvec3 v;
-        for (int axis = 0; axis < 3; ++axis)
-            v[axis] = double(from.as<float>()[strand_value(0, k, axis, strand_.nodes + 1)]);
-        return v;
-    };
+    const auto first = [&](const Mapped& from, int k) { return vector_at(from.as<float>(), 0, k, strand_.nodes + 1); };
     std::vector<glm::dvec3> nodes, velocities;
     for (int k = 1; k <= strand_.nodes; ++k)
     {
@@ -148,11 +140,7 @@ LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& 
         spent.push_back(lab.frame());
         lab.look(run);
     }
-    if (!spent.empty())
-    {
-        std::nth_element(spent.begin(), spent.begin() + ptrdiff_t(spent.size() / 2), spent.end());
-        run.nanoseconds = spent[spent.size() / 2];
-    }
+    run.nanoseconds = median(spent);
     return run;
 }
 

@@ -89,8 +89,7 @@ static Sampled move(const Device& device, HairParams params, const Groom& groom,
             const auto way = [&](double share) { return pose_at(motion, begin + share * h); };
             solver.step({{way(1.0), begin + h, float(h), way}});
         }
-        for (const auto& [pass, ms] : solver.take_times())
-            sampled.nanoseconds += 1e6 * ms / double(steps * LANES);
+        sampled.nanoseconds += 1e6 * sum_of(solver.take_times()) / double(steps * LANES);
         const Mapped view = solver.guide_positions();
         sampled.positions.insert(sampled.positions.end(), view.as<float>(), view.as<float>() + values);
     }

@@ -44,8 +44,8 @@ std::string quality_text(const Quality& quality);
 // Throws Error as grow() and Solver do.
 Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality);
 
-// The error of these parameters over a motion, measured: sixteen guides against themselves at eight times the substeps,
-// as a fraction of the strand's length.
+// The error of these parameters over the first `seconds` of a motion, measured: sixteen guides against themselves at
+// eight times the substeps, as a fraction of the strand's length. `params` as authored. Throws Error as Solver does.
 double measure_time_error(const Device& device, const HairParams& params, const Groom& groom, const Motion& motion,
                           double seconds);
 

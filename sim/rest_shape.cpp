@@ -1,5 +1,7 @@
 #include "sim/rest_shape.h"
 
+#include "sim/material.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -11,9 +13,7 @@ namespace coif
 
 using Vec = glm::dvec3;
 
-static constexpr double kGravity = 9.81;      // m/s^2
-static constexpr double kFibreDensity = 1300; // kg/m^3
-static constexpr double kMostBend = 0.5;      // of a segment, that gravity is compensated by at one node
+static constexpr double kMostBend = 0.5; // of a segment, that gravity is compensated by at one node
 static constexpr double kFinest = 1.0 / 60.0 / MOST_SUBSTEPS; // s
 
 static Vec any_normal(Vec t) { return glm::normalize(std::abs(t.x) > 0.6 ? Vec(-t.z, 0.0, t.x) : Vec(0.0, t.z, -t.y)); }
@@ -30,10 +30,7 @@ static Vec carried(Vec normal, Vec t, Vec next)
 
 static Vec vector_of(const std::vector<float>& from, int strand, int node, int nodes)
 {
-    Vec v;
-    for (int axis = 0; axis < 3; ++axis)
-        v[axis] = from[size_t(strand_value(strand, node, axis, nodes))];
-    return v;
+    return vector_at(from.data(), strand, node, nodes);
 }
 
 static void put(std::vector<float>& to, int strand, int node, int nodes, Vec v)
@@ -132,14 +129,7 @@ static double tightest_of(const std::vector<float>& shape, const Groom& groom)
     return most;
 }
 
-// Stiffness over mass, 1/s^2, and of each element: kernels/direct.h.
-static double stiffness_over_mass(const HairParams& params, int links, double rest)
-{
-    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
-    return modulus > 0.0 ? modulus * radius * radius / (4.0 * kFibreDensity * std::pow(rest, 4))
-                         : kGravity * links * links * links / (double(params.bending_droop) * rest);
-}
-
+// Of each element, as kernels/direct.h has it, where that of all is `all`, 1/s^2.
 static std::vector<double> stiffnesses(const HairParams& params, int nodes, double all)
 {
     const int links = nodes - 2;
@@ -214,10 +204,7 @@ std::vector<float> in_head_frame(const float* position, const Groom& groom, cons
     const glm::dquat back = glm::conjugate(turn);
     for (int s = 0; s < groom.blocks * LANES; ++s)
         for (int k = 0; k < groom.nodes; ++k)
-        {
-            const float* at = position + strand_value(s, k, 0, groom.nodes);
-            put(out, s, k, groom.nodes, back * Vec(at[0], at[LANES], at[2 * LANES]));
-        }
+            put(out, s, k, groom.nodes, back * vector_at(position, s, k, groom.nodes));
     return out;
 }
 

@@ -1,12 +1,8 @@
 #pragma once
 #include "sim/device.h"
-#include "sim/distance_grid.h"
-#include "sim/groom.h"
-#include "sim/motion.h"
-#include "sim/params.h"
 #include "sim/rest_shape.h"
+#include "sim/step_info.h"
 
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -15,20 +11,15 @@
 namespace coif
 {
 
-// The head at the end of a substep.
-struct Substep
-{
-    Pose head;
-    double time = 0.0; // s, at its end
-    float seconds = 1.0f / 60.0f;
-    std::function<Pose(double)> way = {}; // its poses between, by the share of the substep; none: in a straight line
-};
-
 // Milliseconds that the device spent in a pass since the last take_times().
 using PassTimes = std::vector<std::pair<std::string, double>>;
+double sum_of(const PassTimes& times);
+
+size_t grid_voxels(const HairParams& params); // of the density grid
 
 // Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
-// positions back; nothing in between touches the host.
+// positions back; nothing in between touches the host. Throws Error for what the device refuses; where that is memory,
+// all stays as it was.
 class Solver
 {
   public:
@@ -115,18 +106,5 @@ class Solver
     std::vector<std::pair<std::string, cl::Event>> launches_;
     PassTimes times_;
 };
-
-// What the device reads in one substep, for `before` -> `now`. Thesis eq. 5.5 for strengths, accuracy of the sweeps'
-// over-relaxation as Young 1950, optical depth as Bertails et al. 2005. `params` as the device reads them.
-StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose& before, glm::dvec3 velocity_before,
-                        const Substep& now, int colliders, bool last, const PlacedGrid& body = {});
-
-// The head on its way through a substep, and what drag leaves of the velocities.
-StepPath make_step_path(const HairParams& params, const Pose& before, const Substep& now, bool teleport,
-                        double seconds_before);
-
-// What of StepInfo only the direct solver reads, and only the path and the rest shape tell: the acceleration that
-// strands will hang in, how stiff curls may be.
-void set_direct(StepInfo& info, const StepPath& path, const Groom& groom, const RestShape& rest, int head_colliders);
 
 } // namespace coif

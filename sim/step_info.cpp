@@ -1,5 +1,6 @@
-// Fills StepInfo: everything that the kernels need of one substep, in one place.
-#include "sim/solver.h"
+#include "sim/step_info.h"
+
+#include "sim/material.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -18,9 +19,6 @@ static constexpr double kTeleportAngle = std::numbers::pi / 2.0; // rad in a sub
 static constexpr double kGustCell = 0.15, kGustPeriod = 256.0;   // m; cells: kernels/turbulence.h
 static constexpr double kGustDrift = 0.3;                        // s: gusts travel as fast as wind drives in this time
 static constexpr float kClearance = 0.001f;                      // m that hair keeps from colliders
-static constexpr float kPushOut = 0.5f;                          // m/s at which hair that starts inside leaves
-static constexpr double kGravity = 9.81;                         // m/s^2
-static constexpr double kFibreDensity = 1300.0;                  // kg/m^3
 
 static float4 row(const glm::dmat3& m, int i) { return F4(float(m[0][i]), float(m[1][i]), float(m[2][i]), 0.0f); }
 static float4 vector4(glm::dvec3 v, double w) { return F4(float(v.x), float(v.y), float(v.z), float(w)); }
@@ -133,11 +131,10 @@ StepInfo make_step_info(const HairParams& params, const Groom& groom, const Pose
     const double links = groom.nodes - 2;
     info.relax =
         params.solver_sweeps == 0 ? float(2.0 / (1.0 + std::sin(std::numbers::pi / (2.0 * links + 1.0)))) : 1.0f;
-    // Bending of the direct solver, kernels/direct.h: stiffness over mass k = E I / (rho S l^4). The droop number is
-    // Gamma = rho g S L^3 / (E I), 4 rho g L^3 / (E r^2) for a round fibre; it is said for 1 g whatever gravity is.
-    const double radius = 0.5e-6 * params.bending_diameter, modulus = 1e9 * params.bending_modulus;
-    info.bend_droop = modulus > 0.0 ? 0.0f : float(kGravity * links * links * links / params.bending_droop);
-    info.bend_modulus = float(modulus * radius * radius / (4.0 * kFibreDensity));
+    // Of segments of 1 m: kernels/direct.h takes it to each strand's own.
+    const float stiffness = float(stiffness_over_mass(params, links, 1.0));
+    info.bend_droop = params.bending_modulus > 0.0f ? 0.0f : stiffness;
+    info.bend_modulus = params.bending_modulus > 0.0f ? stiffness : 0.0f;
     info.tip_mass = groom.tip_mass;
     info.push_out = kPushOut;
     info.clearance = kClearance;

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -162,6 +163,7 @@ std::vector<glm::uvec3> oriented_triangles(const Mesh& mesh)
 WindingTree::WindingTree(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles)
     : positions_(positions), triangles_(triangles)
 {
+    assert(!triangles.empty());
     for (const glm::uvec3& t : triangles)
         centers_.push_back((positions[t.x] + positions[t.y] + positions[t.z]) / 3.0f);
     order_.resize(triangles.size());

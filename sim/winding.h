@@ -18,7 +18,7 @@ std::vector<glm::uvec3> oriented_triangles(const Mesh& mesh);
 class WindingTree
 {
   public:
-    // Keeps references to both.
+    // Of one triangle or more. Keeps references to both.
     WindingTree(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles);
     float winding(glm::vec3 p) const;
 

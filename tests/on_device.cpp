@@ -128,6 +128,12 @@ Groom random_groom(Random& random, int guides, int nodes, int drawn)
     return groom;
 }
 
+std::vector<glm::dvec3> nodes_in(const Device& device, const cl::Buffer& buffer, const Groom& groom)
+{
+    const size_t values = size_t(groom.blocks) * 16 * size_t(groom.nodes) * 3;
+    return from_blocks(read<float>(device, buffer, values), groom.guides, groom.nodes);
+}
+
 Groom one_strand(int nodes, float length, glm::vec3 root, glm::vec3 direction)
 {
     Groom groom;

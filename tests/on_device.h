@@ -55,6 +55,9 @@ template <typename T> cl::Buffer filled(const Device& device, const T& value)
 std::vector<float> to_blocks(const std::vector<glm::dvec3>& values, int strands, int nodes);
 std::vector<glm::dvec3> from_blocks(const std::vector<float>& blocks, int strands, int nodes);
 
+// The vectors of every node that such a buffer of a groom holds: [strand][node].
+std::vector<glm::dvec3> nodes_in(const Device& device, const cl::Buffer& buffer, const Groom& groom);
+
 // Roots all over a sphere of 10 cm, leaning this way and that, of unequal segments; `drawn` strands, a quarter of them
 // copies.
 Groom random_groom(Random& random, int guides, int nodes, int drawn);

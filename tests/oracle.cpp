@@ -9,14 +9,12 @@
 namespace coif::oracle
 {
 
-static Vec xyz(float4 v) { return {v.x, v.y, v.z}; }
 static Vec turned(float4 row0, float4 row1, float4 row2, Vec v)
 {
     return {glm::dot(xyz(row0), v), glm::dot(xyz(row1), v), glm::dot(xyz(row2), v)};
 }
 
-// ---- wind: eq. 5.2 with gradient noise (Perlin 1985, 2002)
-// -----------------------------------------------------------
+// ---- wind: eq. 5.2 with gradient noise (Perlin 1985, 2002) -------------------------------------------------------
 
 static uint32_t lattice_hash(int x, int y, int z, uint32_t component)
 {

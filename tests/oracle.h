@@ -17,6 +17,7 @@ namespace coif::oracle
 {
 
 using Vec = glm::dvec3;
+inline Vec xyz(float4 v) { return {v.x, v.y, v.z}; }
 
 struct Strands
 {
@@ -83,8 +84,7 @@ Vec across_wind(Vec wind, Vec tangent);
 Vec repulsion_force(Vec at, const std::vector<Vec>& gradient, int resolution, const StepInfo& info);
 
 // Nodes 1 and outwards, or of many strands an even part of them, shared out over eight voxels each, thesis 5.1.3. Not
-// rounded; `shares` counts the nodes that had
-// a share in a voxel, each of which may be rounded by a half.
+// rounded; `shares` counts the nodes that had a share in a voxel, each of which may be rounded by a half.
 struct Density
 {
     std::vector<double> sum;

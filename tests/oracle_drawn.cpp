@@ -12,7 +12,6 @@
 namespace coif::oracle
 {
 
-static Vec xyz(float4 v) { return {v.x, v.y, v.z}; }
 static Vec to_world(const StepInfo& info, Vec v)
 {
     return {glm::dot(xyz(info.head_row0), v), glm::dot(xyz(info.head_row1), v), glm::dot(xyz(info.head_row2), v)};

@@ -78,8 +78,7 @@ struct Rig
     }
     std::vector<Vec> values(const char* name) const
     {
-        const size_t count = size_t(groom.blocks) * 16 * size_t(groom.nodes) * 3;
-        return from_blocks(read<float>(test_device(), solver.buffers().at(name), count), groom.guides, groom.nodes);
+        return nodes_in(test_device(), solver.buffers().at(name), groom);
     }
     std::vector<Vec> positions() const { return values("position"); }
     std::vector<Vec> velocities() const { return values("velocity"); }

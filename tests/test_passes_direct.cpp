@@ -1,6 +1,7 @@
 // simulate_direct against its double-precision twin, one step at a time, from states of every kind.
 #include "sim/error.h"
-#include "tests/on_device.h"
+#include "sim/median.h"
+#include "tests/guide_pass.h"
 #include "tests/oracle_direct.h"
 
 #include <gtest/gtest.h>
@@ -31,8 +32,6 @@ struct Case
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-glm::dvec3 rounded(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
-
 class DirectPass : public testing::TestWithParam<Case>
 {
   protected:
@@ -40,24 +39,14 @@ class DirectPass : public testing::TestWithParam<Case>
     {
         const Case& c = GetParam();
         HairParams& params = step.params;
-        params.strand_nodes = c.nodes;
-        params.grid_resolution = 20;
-        params.forces_wind = c.wind ? F4(9.0f, -2.0f, 4.0f, 0.0f) : F4(0.0f, 0.0f, 0.0f, 0.0f);
-        params.forces_repulsion = c.repulsion ? 2.0f : 0.0f;
-        if (c.change)
-            c.change(params);
-        params = device_params(params);
+        params = pass_params(c.nodes, 20, c.wind, c.repulsion, c.change);
         groom = random_groom(random, c.strands, c.nodes, 10);
 
         step.bending = c.bending;
         step.curled = c.curled;
         step.wind = c.wind;
         step.repulsion = c.repulsion;
-        step.before.origin = random.vector(2.0);
-        step.before.turn = glm::angleAxis(random.in(-3.0, 3.0), random.direction());
-        step.now.head.origin = step.before.origin + random.vector(c.teleport ? 5.0 : 0.01);
-        step.now.head.turn = glm::angleAxis(c.teleport ? 2.0 : 0.03, random.direction()) * step.before.turn;
-        step.now.time = 3.7;
+        move_head(random, c.teleport, 0.01, 0.03, step.before, step.now);
         step.head_velocity = {0.4, -0.2, 0.7};
         step.seconds_before = c.seconds_before;
         step.tip_mass = groom.tip_mass;
@@ -65,7 +54,7 @@ class DirectPass : public testing::TestWithParam<Case>
         PlacedGrid placed;
         if (c.grid)
         {
-            placed = {lumpy_body(), 1.1f, {0.005f, -0.01f, 0.0f}};
+            placed = lumpy_head();
             step.on_grid = true;
             step.grid = oracle::body_of(*placed.grid);
         }
@@ -152,11 +141,6 @@ class DirectPass : public testing::TestWithParam<Case>
     Buffers buffers(const Device& device) const
     {
         const Case& c = GetParam();
-        std::vector<float> slopes;
-        for (int axis = 0; axis < 3; ++axis)
-            for (const Vec& v : step.gradient)
-                slopes.push_back(float(v[axis]));
-        slopes.resize(std::max<size_t>(slopes.size(), 1));
         std::vector<Capsule> bodies;
         for (const bool on_head : {true, false})
             for (const oracle::Round& body : step.bodies)
@@ -186,7 +170,7 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"tension_next", filled(device, std::vector<float>(size_t(groom.blocks) * 16, -1.0f))},
                 {"pace", filled(device, state.pace)},
                 {"pace_next", filled(device, std::vector<int>(size_t(groom.blocks), -1))},
-                {"gradient", filled(device, slopes)},
+                {"gradient", filled(device, axis_by_axis(step.gradient))},
                 {"density", filled(device, std::vector<int>(20 * 20 * 20, 0))},
                 {"moved", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 0.0f))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
@@ -214,9 +198,7 @@ class DirectPass : public testing::TestWithParam<Case>
 
     std::vector<Vec> points(const Buffers& from, const char* name) const
     {
-        const Case& c = GetParam();
-        const size_t values = size_t(groom.blocks) * 16 * size_t(c.nodes) * 3;
-        return from_blocks(read<float>(test_device(), from.at(name), values), c.strands, c.nodes);
+        return nodes_in(test_device(), from.at(name), groom);
     }
     std::vector<double> scalars(const Buffers& from, const char* name, int nodes) const
     {
@@ -233,21 +215,9 @@ class DirectPass : public testing::TestWithParam<Case>
         return read<int>(test_device(), from.at(name), size_t(groom.guides));
     }
 
-    // The largest difference along each strand; infinite where something is not a number.
     template <typename T> std::vector<double> apart(const std::vector<T>& a, const std::vector<T>& b) const
     {
-        std::vector<double> most(size_t(groom.guides), 0.0);
-        for (size_t i = 0; i < a.size(); ++i)
-        {
-            double d;
-            if constexpr (std::is_same_v<T, Vec>)
-                d = glm::distance(a[i], b[i]);
-            else
-                d = std::abs(a[i] - b[i]);
-            double& m = most[i / (a.size() / most.size())];
-            m = std::max(m, std::isfinite(d) ? d : INFINITY);
-        }
-        return most;
+        return coif::apart(a, b, groom.guides);
     }
 
     Random random{unsigned(7 * GetParam().nodes + 1000 * GetParam().strands + 3 * GetParam().width)};
@@ -318,9 +288,7 @@ TEST_P(DirectPass, MovesTheGuidesAsTheTwinDoes)
     EXPECT_EQ(read<int>(test_device(), on_device.at("pace_next"), size_t(groom.blocks)), expected.pace);
     EXPECT_EQ(counts(on_device, "resets"), expected.resets);
     EXPECT_EQ(counts(on_device, "faults"), expected.faults);
-    std::vector<double> sorted = x;
-    std::nth_element(sorted.begin(), sorted.begin() + c.strands / 2, sorted.end());
-    EXPECT_LE(sorted[strands / 2], 1e-6);
+    EXPECT_LE(median(x), 1e-6);
 }
 
 TEST_P(DirectPass, DecidesAlikeAtEveryWidth)
@@ -334,9 +302,7 @@ TEST_P(DirectPass, DecidesAlikeAtEveryWidth)
         EXPECT_EQ(bytes_of(test_device(), at[0].at("pace_next")), bytes_of(test_device(), other.at("pace_next")));
         EXPECT_EQ(counts(at[0], "resets"), counts(other, "resets"));
         // Compilers contract sums and products as they like, so that bits differ; see the twin for how far.
-        std::vector<double> apart_by = apart(points(at[0], "position"), points(other, "position"));
-        std::nth_element(apart_by.begin(), apart_by.begin() + c.strands / 2, apart_by.end());
-        EXPECT_LE(apart_by[size_t(c.strands / 2)], 1e-6);
+        EXPECT_LE(median(apart(points(at[0], "position"), points(other, "position"))), 1e-6);
     }
 }
 

@@ -1,15 +1,14 @@
 #include "app/advise/advise.h"
 
 #include "app/advise/lean.h"
+#include "app/progress.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <unistd.h>
 
 namespace coif
 {
@@ -175,18 +174,10 @@ int advise(const Options& options, const AdviseOptions& wanted)
     const Window window(16, 16, Window::HIDDEN);
     Renderer renderer(data_folder() / "shaders");
     Trial trial{device, renderer, motion, wanted.seconds, 0.01 * double(tolerance)};
-    const auto begin = std::chrono::steady_clock::now();
-    const bool terminal = isatty(STDERR_FILENO);
-    if (terminal)
-        trial.progress = [&](const std::string& doing)
-        {
-            const auto seconds =
-                std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin);
-            fmt::print(stderr, "\r\033[K{} ({} s)", doing, seconds.count());
-        };
+    const ProgressLine line;
+    trial.progress = [&](const std::string& doing) { line.say(doing); };
     const Advice advice = advise_on(trial, chosen(device, authored));
-    if (terminal)
-        fmt::print(stderr, "\r\033[K");
+    line.clear();
 
     const bool leaner = !changes_text(advice.base, advice.lean).empty(), write = wanted.apply && leaner;
     if (write)

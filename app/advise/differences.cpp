@@ -1,8 +1,8 @@
 #include "app/advise/differences.h"
 
 #include "app/ssim.h"
-#include "app/statistics.h"
 #include "sim/error.h"
+#include "sim/median.h"
 
 #include <glm/geometric.hpp>
 
@@ -35,12 +35,6 @@ struct Player
 };
 } // namespace
 
-static glm::dvec3 node_at(const float* guides, int nodes, int strand, int node)
-{
-    const float* at = guides + strand_value(strand, node, 0, nodes);
-    return {at[0], at[LANES], at[2 * LANES]};
-}
-
 double apart(const float* a, int nodes_a, const float* b, int nodes_b, int guides)
 {
     if (nodes_a > nodes_b)
@@ -52,8 +46,8 @@ double apart(const float* a, int nodes_a, const float* b, int nodes_b, int guide
             const double along = double(k - 1) * (nodes_b - 2) / (nodes_a - 2); // links from the root
             const int below = std::min(int(along), nodes_b - 3);
             const glm::dvec3 on_b =
-                glm::mix(node_at(b, nodes_b, s, 1 + below), node_at(b, nodes_b, s, 2 + below), along - below);
-            const glm::dvec3 away = node_at(a, nodes_a, s, k) - on_b;
+                glm::mix(vector_at(b, s, 1 + below, nodes_b), vector_at(b, s, 2 + below, nodes_b), along - below);
+            const glm::dvec3 away = vector_at(a, s, k, nodes_a) - on_b;
             sum += glm::dot(away, away);
         }
     return std::sqrt(sum / (double(guides) * (nodes_a - 2)));
@@ -91,10 +85,7 @@ static void move(Player& player, double seconds, bool timed)
     if (!timed)
         return;
     solver.draw();
-    double ms = 0.0;
-    for (const auto& [pass, spent] : solver.take_times())
-        ms += spent;
-    player.step_ms.push_back(ms);
+    player.step_ms.push_back(sum_of(solver.take_times()));
 }
 
 static FrameInput frame_of(const Player& player)

@@ -77,7 +77,7 @@ static const Count kCounts[] = {
     {"drawn strands", "interpolation.strands", 0.5, 250.0, 0.0, always, "look.width"},
     {"subdivisions", "smoothing.subdivisions", 0.5, 1.0, 30.0, draws},
     {"nodes", "strand.nodes", 2.0 / 3.0, 6.0, 64.0, always},
-    // Finer than by default it does not tell more: the blur is counted in voxels.
+    // Finer than by default it does not tell more: grid.blur has spread hair wider than the voxels.
     {"grid", "grid.resolution", 0.5, 16.0, 64.0, has_grid},
     {"time steps", "solver.rate", 0.5, 60.0, 0.0, always},
     {"substeps at least", "solver.substeps", 0.5, 1.0, 0.0, direct},

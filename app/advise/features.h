@@ -30,7 +30,7 @@ Feature further(const Feature& feature);
 // `style` with all that sets `changed` apart from `from`.
 Hairstyle with_changes(Hairstyle style, const Hairstyle& from, const Hairstyle& changed);
 
-// What sets two styles apart, as TOML says it: "forces.repulsion = 0.0, grid.blur = 0".
+// What sets two styles apart, as TOML says it: "forces.repulsion = 0.0, grid.blur = 0.0".
 std::string changes_text(const Hairstyle& from, const Hairstyle& changed);
 
 } // namespace coif

@@ -1,7 +1,8 @@
 // The advice as a table and as JSON.
-#include "app/table.h"
 #include "app/advise/advise.h"
+
 #include "app/json.h"
+#include "app/table.h"
 #include "sim/error.h"
 
 namespace coif

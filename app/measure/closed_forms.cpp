@@ -1,5 +1,6 @@
 // Motion whose answer is a formula: A1 free fall, A2 the pendulum, A3 and A4 small swings of a chain, A11 energy.
 #include "app/measure/strand.h"
+#include "sim/material.h"
 
 #include <glm/geometric.hpp>
 
@@ -9,7 +10,6 @@
 namespace coif
 {
 
-constexpr double kG = 9.81; // m/s^2
 constexpr double kPi = std::numbers::pi;
 
 std::vector<Row> measure_fall(const Measuring& with)
@@ -19,7 +19,7 @@ std::vector<Row> measure_fall(const Measuring& with)
         for (const HairParams& solver : product_solvers())
         {
             const auto fallen = [drag](double t)
-            { return drag > 0.0 ? kG / drag * (t + std::expm1(-drag * t) / drag) : 0.5 * kG * t * t; };
+            { return drag > 0.0 ? kGravity / drag * (t + std::expm1(-drag * t) / drag) : 0.5 * kGravity * t * t; };
             study::Scene scene;
             scene.drag = drag;
             scene.direction = {1.0, 0.0, 0.0};
@@ -125,7 +125,7 @@ std::vector<Row> measure_pendulum(const Measuring& with)
                 b = std::sqrt(a * b);
                 a = mean;
             }
-            const double period = 2.0 * kPi * std::sqrt(scene.length / kG) / a;
+            const double period = 2.0 * kPi * std::sqrt(scene.length / kGravity) / a;
             Row row = strand_row("A2", fmt::format("{:g} degrees", degrees), "period", solver,
                                  std::abs(mean_period(angle, 60.0) / period - 1.0), "fraction", "elliptic integral",
                                  {1e-4, 1e-4});
@@ -193,7 +193,7 @@ static Mode mode(int which)
     const int links = m.scene.links;
     const double zero = laguerre_zero(links, which), link = m.scene.length / links;
     const std::vector<double> l = laguerre(links, zero);
-    m.frequency = std::sqrt(kG / link * zero);
+    m.frequency = std::sqrt(kGravity / link * zero);
     m.shape = {l.rbegin(), l.rend()};
     double steepest = 0.0;
     for (size_t i = 1; i < m.shape.size(); ++i)
@@ -275,8 +275,8 @@ std::vector<Row> measure_energy(const Measuring& with)
         {
             double sum = 0.0;
             for (size_t i = 1; i < run.nodes[f].size(); ++i)
-                sum += 0.5 * glm::dot(run.velocities[f][i], run.velocities[f][i]) + kG * run.nodes[f][i].y;
-            energy.push_back(sum / (free.scene.links * kG * free.scene.length));
+                sum += 0.5 * glm::dot(run.velocities[f][i], run.velocities[f][i]) + kGravity * run.nodes[f][i].y;
+            energy.push_back(sum / (free.scene.links * kGravity * free.scene.length));
         }
         const size_t count = size_t(window * 60.0);
         double worst = 0.0;

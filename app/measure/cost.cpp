@@ -21,10 +21,7 @@ std::vector<double> frame_ms(const Solvers& solvers, bool drawn, int repeats)
                     if (drawn)
                         solver->draw();
                 }
-                double ms = 0.0;
-                for (const auto& [pass, spent] : solver->take_times())
-                    ms += spent;
-                return ms / frames;
+                return sum_of(solver->take_times()) / frames;
             });
     interleaved_medians(runs, 1); // kernels are built at their first launch
     return interleaved_medians(runs, repeats);

@@ -7,6 +7,7 @@
 #include "app/statistics.h"
 #include "sim/error.h"
 #include "sim/health.h"
+#include "sim/median.h"
 #include "sim/motion.h"
 
 #include <glm/geometric.hpp>

@@ -1,12 +1,10 @@
 #include "app/measure/measure.h"
 
 #include "app/measure/plots.h"
-#include "sim/error.h"
+#include "app/progress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <unistd.h>
 
 namespace coif
 {
@@ -15,19 +13,12 @@ namespace fs = std::filesystem;
 
 static std::vector<Scene> wanted_scenes(const std::vector<std::string>& only)
 {
-    if (only.empty())
-        return scenes();
-    std::vector<Scene> wanted;
     std::vector<std::string> ids;
     for (const Scene& scene : scenes())
-    {
-        ids.push_back(scene.id);
-        if (std::find(only.begin(), only.end(), scene.id) != only.end())
-            wanted.push_back(scene);
-    }
-    for (const std::string& id : only)
-        if (std::find(ids.begin(), ids.end(), id) == ids.end())
-            throw fail("--only {}: there is no such scene; there are {}", id, fmt::join(ids, ", "));
+        ids.emplace_back(scene.id);
+    std::vector<Scene> wanted;
+    for (const size_t i : selected(only, ids, "scene"))
+        wanted.push_back(scenes()[i]);
     return wanted;
 }
 
@@ -35,32 +26,21 @@ int measure(const Options& options, const MeasureOptions& wanted)
 {
     const std::vector<Scene> all = wanted_scenes(wanted.only);
     const fs::path folder = options.output.empty() ? "measure" : options.output;
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        throw fail("{}: the folder cannot be made: {}", folder.string(), error.message());
+    make_folder(folder);
     const Device device = open_device(options);
     Measuring with{device, wanted.quick};
-    const bool terminal = isatty(STDERR_FILENO);
-    const auto begin = std::chrono::steady_clock::now();
+    const ProgressLine line;
 
     std::vector<Row> rows;
     for (size_t i = 0; i < all.size(); ++i)
     {
-        if (terminal)
-            with.progress = [&](const std::string& doing)
-            {
-                const auto seconds =
-                    std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin);
-                fmt::print(stderr, "\r\033[K{} of {}: {}: {} ({} s)", i + 1, all.size(), all[i].id, doing,
-                           seconds.count());
-            };
+        with.progress = [&](const std::string& doing)
+        { line.say(fmt::format("{} of {}: {}: {}", i + 1, all.size(), all[i].id, doing)); };
         with.progress(all[i].title);
         const std::vector<Row> more = all[i].run(with);
         rows.insert(rows.end(), more.begin(), more.end());
     }
-    if (terminal)
-        fmt::print(stderr, "\r\033[K");
+    line.clear();
 
     write_file(folder / "measure.csv", csv_of(rows));
     write_file(folder / "measure.json", json_of(rows, device.name, wanted.quick));

@@ -85,9 +85,7 @@ static double take_ms(Renderer& renderer, const Take& take, const Size& size)
     simulation.solver().take_times();
     simulation.step(simulation.hand());
     simulation.solver().draw();
-    double ms = 0.0;
-    for (const auto& [pass, spent] : simulation.solver().take_times())
-        ms += spent;
+    const double ms = sum_of(simulation.solver().take_times());
     const auto begin = std::chrono::steady_clock::now();
     picture_of(renderer, take, take.view, take.samples, size);
     return ms + std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -19,10 +19,6 @@ using Filter = std::function<bool(const Row&)>;
 using Key = std::function<std::string(const Row&)>;
 } // namespace
 
-static std::string case_of(const Row& row) { return row.scene + (row.setting.empty() ? "" : " " + row.setting); }
-
-// Shares are shown in percent.
-static bool in_percent(const Row& row) { return row.unit == "L" || row.unit == "fraction"; }
 static double shown_error(const Row& row) { return (in_percent(row) ? 100.0 : 1.0) * row.error; }
 static std::string error_label(const Row& row)
 {

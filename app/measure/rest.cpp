@@ -2,6 +2,7 @@
 #include "app/measure/strand.h"
 
 #include "app/measure/cantilever.h"
+#include "sim/material.h"
 
 #include <glm/geometric.hpp>
 
@@ -32,7 +33,6 @@ std::vector<Row> measure_hang(const Measuring& with)
 std::vector<Row> measure_wind(const Measuring& with)
 {
     std::vector<Row> rows;
-    const double g = 9.81;
     for (const double ratio : with.quick ? std::vector<double>{0.1, 1.0, 10.0, 100.0}
                                          : std::vector<double>{0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0})
         for (const HairParams& solver : product_solvers())
@@ -40,7 +40,7 @@ std::vector<Row> measure_wind(const Measuring& with)
             with.progress(fmt::format("wind of {} g, {}", ratio, solver_name(solver)));
             study::Scene scene;
             scene.drag = 8.0;
-            scene.wind = glm::dvec3(ratio * g, 0.0, 0.0);
+            scene.wind = glm::dvec3(ratio * kGravity, 0.0, 0.0);
             scene.direction = {std::sin(0.3), -std::cos(0.3), 0.0};
             const LabRun run = play(with, solver, scene, 60.0, kSettle);
             const double degree = std::numbers::pi / 180.0;

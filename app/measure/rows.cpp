@@ -1,5 +1,6 @@
 #include "app/measure/rows.h"
 
+#include "app/csv.h"
 #include "app/json.h"
 #include "app/table.h"
 
@@ -31,15 +32,9 @@ static const struct Column
                 {"pass", nullptr, &Row::pass},
                 {"state_of_the_art", nullptr, &Row::state_of_the_art}};
 
-static std::string csv_text(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == text.npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
+std::string case_of(const Row& row) { return row.scene + (row.setting.empty() ? "" : " " + row.setting); }
+
+bool in_percent(const Row& row) { return row.unit == "L" || row.unit == "fraction"; }
 
 static std::string verdict(const Row& row)
 {
@@ -84,12 +79,11 @@ std::string json_of(const std::vector<Row>& rows, const std::string& device, boo
 // Four significant digits, or nothing.
 static std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
 
-// A fraction of a length reads best in percent.
 static std::string shown_error(const Row& row)
 {
     if (!std::isfinite(row.error))
         return "-";
-    if (row.unit == "L" || row.unit == "fraction")
+    if (in_percent(row))
         return fmt::format("{:.3g} %{}", 100.0 * row.error, row.unit == "L" ? " L" : "");
     return fmt::format("{:.4g}{}{}", row.error, row.unit.empty() ? "" : " ", row.unit);
 }
@@ -99,8 +93,7 @@ std::string table_of(const std::vector<Row>& rows)
     std::vector<std::vector<std::string>> lines = {
         {"scene", "metric", "solver", "knob", "value", "error", "stretch", "inside", "ns/strand", "ms", ""}};
     for (const Row& row : rows)
-        lines.push_back({row.scene + (row.setting.empty() ? "" : " " + row.setting), row.metric, row.solver, row.knob,
-                         shown(row.value), shown_error(row),
+        lines.push_back({case_of(row), row.metric, row.solver, row.knob, shown(row.value), shown_error(row),
                          std::isfinite(row.stretch) ? fmt::format("{:.2f} %", 100.0 * row.stretch) : "",
                          std::isfinite(row.penetration_mm) ? fmt::format("{:.2f} mm", row.penetration_mm) : "",
                          shown(row.ns_strand_frame), shown(row.ms), verdict(row)});

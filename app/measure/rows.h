@@ -38,6 +38,9 @@ struct Row
     bool within(double bound) const { return at_least ? error >= bound : error <= bound; }
 };
 
+std::string case_of(const Row& row); // its scene and setting: "A12 contact"
+bool in_percent(const Row& row);     // do people read its error best so: fractions, of a length too
+
 // All rows with a head line, fields quoted as RFC 4180 asks.
 std::string csv_of(const std::vector<Row>& rows);
 

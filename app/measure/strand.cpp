@@ -1,6 +1,7 @@
 #include "app/measure/strand.h"
 
 #include "sim/error.h"
+#include "sim/material.h"
 #include "sim/source.h"
 
 #include <cmath>
@@ -39,7 +40,7 @@ LabStrand strand_of(const study::Scene& scene)
 HairParams params_of(HairParams solver, const study::Scene& scene)
 {
     solver.forces_drag = float(scene.drag);
-    solver.forces_gravity = float(scene.gravity / 9.81);
+    solver.forces_gravity = float(scene.gravity / kGravity);
     solver.forces_turbulence = 0.0f;
     if (scene.wind)
         solver.forces_wind = F4(float(scene.wind->x), float(scene.wind->y), float(scene.wind->z), 0.0f);

@@ -1,6 +1,7 @@
 // The head and the bodies in motion.
 #include "app/options.h"
 #include "app/stress/cases.h"
+#include "sim/material.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ static Energy energy_of_a_step(Trial& trial)
     {
         const glm::dvec3 velocity = 60.0 * (after[i] - before[i]);
         energy.motion += 0.5 * glm::dot(velocity, velocity) / double(after.size());
-        energy.weight += 9.81 * after[i].y / double(after.size());
+        energy.weight += kGravity * after[i].y / double(after.size());
     }
     return energy;
 }

@@ -2,6 +2,8 @@
 #include "app/stress/cases.h"
 
 #include "sim/health.h"
+#include "sim/material.h"
+
 #include <fmt/format.h>
 
 #include <glm/geometric.hpp>
@@ -72,8 +74,8 @@ Outcome free_fall(const Ground& ground)
         const double h = 1e-5, seconds = ground.quick ? 0.01 : 0.03;
         const int steps = int(std::lround(seconds / h));
         for (int i = 1; i <= steps; ++i)
-            trial.step(pose({0.0, -0.5 * 9.81 * (i * h) * (i * h), 0.0}), float(h));
-        const double fallen = 0.5 * 9.81 * seconds * seconds;
+            trial.step(pose({0.0, -0.5 * kGravity * (i * h) * (i * h), 0.0}), float(h));
+        const double fallen = 0.5 * kGravity * seconds * seconds;
         double off = 0.0;
         const std::vector<glm::dvec3> now = trial.nodes();
         for (size_t i = 0; i < now.size(); ++i)

@@ -1,10 +1,10 @@
 // Worst stretch over time step and stiffness, for both solvers, drawn by gnuplot.
+#include "app/gnuplot.h"
 #include "app/stress/cases.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 namespace coif::stress
@@ -78,10 +78,7 @@ Outcome heat_map(const Ground& ground)
         write_file(ground.folder / fmt::format("heat-{}.csv", kSolvers[kind]), csv);
     }
     write_file(ground.folder / "heat.gp", kScript);
-    std::string quoted;
-    for (const char c : ground.folder.string())
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    if (std::system(fmt::format("cd '{}' && gnuplot heat.gp > /dev/null 2>&1", quoted).c_str()) == 0)
+    if (run_gnuplot(ground.folder, "heat.gp", "/dev/null") == 0)
         outcome.note = (ground.folder / "heat.png").string();
     else
         outcome.note = "gnuplot did not draw it; on Debian: apt-get install gnuplot-nox, then gnuplot heat.gp";

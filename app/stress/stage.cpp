@@ -101,8 +101,7 @@ std::vector<glm::dvec3> Trial::nodes() const
     std::vector<glm::dvec3> all;
     for (int g = 0; g < groom.guides; ++g)
         for (int k = 0; k < groom.nodes; ++k)
-            all.emplace_back(x[strand_value(g, k, 0, groom.nodes)], x[strand_value(g, k, 1, groom.nodes)],
-                             x[strand_value(g, k, 2, groom.nodes)]);
+            all.push_back(vector_at(x, g, k, groom.nodes));
     return all;
 }
 

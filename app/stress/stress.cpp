@@ -1,5 +1,6 @@
 #include "app/stress/stress.h"
 
+#include "app/csv.h"
 #include "app/json.h"
 #include "app/stress/cases.h"
 #include "sim/error.h"
@@ -23,27 +24,15 @@ struct Row
 };
 } // namespace
 
-static std::vector<const stress::Case*> chosen(const std::vector<std::string>& only)
+static std::vector<const stress::Case*> wanted_cases(const std::vector<std::string>& only)
 {
-    std::vector<const stress::Case*> all;
     std::vector<std::string> names;
     for (const stress::Case& c : stress::cases())
-    {
         names.emplace_back(c.name);
-        if (only.empty() || std::find(only.begin(), only.end(), c.name) != only.end())
-            all.push_back(&c);
-    }
-    for (const std::string& name : only)
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            throw fail("--only {}: there is no such case; there are {}", name, fmt::join(names, ", "));
-    return all;
-}
-
-static std::string csv_text(std::string text)
-{
-    for (size_t at = 0; (at = text.find('"', at)) != text.npos; at += 2)
-        text.insert(at, 1, '"');
-    return '"' + text + '"';
+    std::vector<const stress::Case*> wanted;
+    for (const size_t i : selected(only, names, "case"))
+        wanted.push_back(&stress::cases()[i]);
+    return wanted;
 }
 
 static void write_tables(const std::filesystem::path& folder, const std::vector<Row>& rows, const std::string& device,
@@ -61,8 +50,8 @@ static void write_tables(const std::filesystem::path& folder, const std::vector<
                 continue;
             csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{},{},{:.3f},{},{}\n", row.of->name, stress::kSolvers[kind],
                                row.outcome.faults.empty(), f.finite, f.stretch, 1e3 * f.penetration, f.resets, f.looks,
-                               row.seconds, csv_text(fmt::format("{}", fmt::join(row.outcome.faults, "; "))),
-                               csv_text(row.outcome.note));
+                               row.seconds, csv_quoted(fmt::format("{}", fmt::join(row.outcome.faults, "; "))),
+                               csv_quoted(row.outcome.note));
             solvers.push_back(fmt::format("\"{}\": {{\"finite\": {}, \"stretch_max\": {}, \"penetration_max_mm\": {}, "
                                           "\"resets\": {}, \"steps\": {}}}",
                                           stress::kSolvers[kind], f.finite, json_number(f.stretch),
@@ -103,7 +92,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
 {
     const auto now = std::chrono::steady_clock::now;
     const auto since = [&](auto begin) { return std::chrono::duration<double>(now() - begin).count(); };
-    const std::vector<const stress::Case*> all = chosen(wanted.only);
+    const std::vector<const stress::Case*> all = wanted_cases(wanted.only);
     if (wanted.styles < -1 || wanted.styles > 1000000)
         throw fail("--cases {}: expected 0 to 1000000", wanted.styles);
     if (wanted.soak != -1.0 && !(wanted.soak > 0.0 && wanted.soak <= 86400.0))
@@ -117,10 +106,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
     ground.quick = wanted.quick;
     ground.styles = wanted.styles >= 0 ? wanted.styles : wanted.quick ? 20 : 2000;
     ground.soak = wanted.soak > 0.0 ? wanted.soak : wanted.quick ? 10.0 : 600.0;
-    std::error_code error;
-    std::filesystem::create_directories(ground.folder, error);
-    if (error)
-        throw fail("{}: cannot be made: {}", ground.folder.string(), error.message());
+    make_folder(ground.folder);
 
     const bool progress = isatty(STDERR_FILENO);
     fmt::print("{}, seed {}\n", ground.device.name, ground.seed);

@@ -11,7 +11,6 @@
 namespace coif::stress
 {
 
-static constexpr double kPushOut = 0.5;        // m/s, as sim/step_info.cpp
 static constexpr double kUlps = 8.0 * 0x1p-24; // what rounding of two positions can make of a length, a coordinate
 
 void add(Figures& sum, const Figures& more)
@@ -76,11 +75,7 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
     ++worst.looks;
     for (int g = 0; g < groom.guides; ++g)
     {
-        const auto node = [&](int k)
-        {
-            return glm::dvec3(x[strand_value(g, k, 0, groom.nodes)], x[strand_value(g, k, 1, groom.nodes)],
-                              x[strand_value(g, k, 2, groom.nodes)]);
-        };
+        const auto node = [&](int k) { return vector_at(x, g, k, groom.nodes); };
         const double rest = double(groom.segment_length[size_t(g)]) * params.strand_spacing;
         const glm::dvec3 root = node(1);
         const double out = any ? way_out(bodies, solver, root) : 0.0;
@@ -90,7 +85,7 @@ void look(Watch& watch, const Solver& solver, const HairParams& params, double s
                 deepest = std::max(deepest, way_out(bodies, solver, node(k)));
         double& grace = watch.grace[size_t(g)];
         if (first || jumped || out > watch.root_out[size_t(g)] + 1e-6)
-            grace = std::max(grace, watch.time + deepest / kPushOut + 0.1);
+            grace = std::max(grace, watch.time + deepest / double(kPushOut) + 0.1);
         watch.root_out[size_t(g)] = out;
         glm::dvec3 before = root;
         double depth_before = out;

@@ -37,7 +37,7 @@ struct Watch
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
 };
 
-// Hair that starts inside of bodies leaves them at a bounded speed (kPushOut of sim/step_info.cpp), and a node whose
+// Hair that starts inside of bodies leaves them at a bounded speed (kPushOut), and a node whose
 // chain does not reach out of them cannot: neither counts as penetration.
 void look(Watch& watch, const Solver& solver, const HairParams& params, double seconds);
 

@@ -1,6 +1,7 @@
 #include "sim/models/baseline.h"
 
 #include "sim/error.h"
+#include "sim/median.h"
 
 #include <glm/geometric.hpp>
 
@@ -105,8 +106,7 @@ BaselineResult run_baseline(const Device& device, const BaselineSetup& setup, in
     std::vector<double> ns(size_t(std::max(frames, 0)));
     for (double& each : ns)
         each = baseline.step(glm::vec3(0.0f));
-    std::nth_element(ns.begin(), ns.begin() + ns.size() / 2, ns.end());
-    return {baseline.positions(), ns.empty() ? 0.0 : ns[ns.size() / 2]};
+    return {baseline.positions(), median(ns)};
 }
 
 } // namespace coif::study

@@ -1,5 +1,6 @@
 // What the models of a strand share: its state, the forces that all of them take alike, and the frames.
 #pragma once
+#include "sim/median.h"
 #include "sim/models/model.h"
 
 #include <glm/geometric.hpp>
@@ -88,11 +89,7 @@ template <typename Step> Result play(Strand& strand, double fps, double seconds,
         if (result.finite)
             result.frames.push_back(strand.x);
     }
-    if (!ns.empty())
-    {
-        std::nth_element(ns.begin(), ns.begin() + ns.size() / 2, ns.end());
-        result.ns = ns[ns.size() / 2];
-    }
+    result.ns = median(ns);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "app/measure/rows.h"
 #include "app/ssim.h"
 #include "app/statistics.h"
+#include "sim/median.h"
 #include "tests/host/scratch.h"
 
 #include <glm/geometric.hpp>

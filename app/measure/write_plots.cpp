@@ -1,11 +1,9 @@
-// The outside program: scripts, and the pictures that it makes of them.
+// The plots as files: scripts, and the pictures that gnuplot makes of them.
+#include "app/gnuplot.h"
 #include "app/measure/plots.h"
 #include "sim/error.h"
 #include "sim/hairstyle.h"
 
-#include <cerrno>
-#include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace coif
@@ -25,40 +23,18 @@ static std::string script_of(const Plot& plot)
         plot.name, plot.data, plot.width, plot.height, plot.body, 2 * plot.width, 2 * plot.height);
 }
 
-// Runs gnuplot on a script in a folder, its words into a file there. Returns its exit status, or -1 if there is none.
-static int run_gnuplot(const fs::path& folder, const std::string& script)
-{
-    const pid_t child = fork();
-    if (child < 0)
-        throw fail("gnuplot could not be started: the system takes no more processes");
-    if (child == 0)
-    {
-        const int log = chdir(folder.c_str()) == 0 ? open("log", O_WRONLY | O_CREAT | O_APPEND, 0644) : -1;
-        if (log >= 0 && dup2(log, STDOUT_FILENO) >= 0 && dup2(log, STDERR_FILENO) >= 0)
-            execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
-        _exit(errno == ENOENT ? 127 : 126);
-    }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 126;
-    return code == 127 ? -1 : code;
-}
-
 std::string write_plots(const fs::path& folder, const std::vector<Plot>& plots)
 {
     const fs::path shown = folder / "plots", making = shown / fmt::format(".making_{}", getpid());
+    make_folder(making);
     std::error_code error;
-    fs::create_directories(making, error);
-    if (error)
-        throw fail("{}: the folder cannot be made: {}", making.string(), error.message());
     std::string trouble;
     for (const Plot& plot : plots)
     {
         write_file(shown / (plot.name + ".gp"), script_of(plot));
         if (!trouble.empty())
             continue;
-        const int status = run_gnuplot(making, "../" + plot.name + ".gp");
+        const int status = run_gnuplot(making, "../" + plot.name + ".gp", "log");
         if (status < 0)
             trouble =
                 fmt::format("gnuplot is not installed, so there are no plots, only their scripts in {}; on Debian "

@@ -1,0 +1,287 @@
+// What the device does: the passes of a step and of a picture, in their order.
+#include "sim/solver.h"
+
+#include "sim/error.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace coif
+{
+
+static constexpr int kLookEvery = 16; // steps, when hair may be at rest
+
+// Voxels that a work-item of the grid's passes takes along x.
+static int chunk(const Device& device, const HairParams& params)
+{
+    return params.grid_resolution % device.width == 0 ? device.width : 1;
+}
+
+Kernel& Solver::kernel(const std::string& file, const std::string& extra)
+{
+    const std::string options = fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={} -D CHUNK={} {}", groom_.nodes,
+                                            params_.grid_resolution, device_.width, chunk(device_, params_), extra);
+    const auto [found, fresh] = kernels_.try_emplace(file + " " + options);
+    if (fresh)
+        try
+        {
+            found->second = load_kernel(device_, file, options);
+        }
+        catch (...)
+        {
+            kernels_.erase(found);
+            throw;
+        }
+    return found->second;
+}
+
+void Solver::launch(const std::string& pass, const std::string& extra, size_t items, size_t group)
+{
+    if (items == 0)
+        return;
+    launches_.emplace_back(pass, run(device_, kernel(pass, extra), buffers_, cl::NDRange(items),
+                                     group ? cl::NDRange(group) : cl::NullRange));
+}
+
+void Solver::launch_strands(const std::string& pass, const std::string& extra, size_t strands)
+{
+    // On CPUs each work-item is a group of its own: left to itself PoCL makes one group of few work-items, on one core.
+    // On GPUs whole groups: a number of strands that has no divisors would else be cut into groups of one.
+    const size_t width = size_t(device_.width);
+    const size_t most = kernel(pass, extra).handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
+    const size_t group = width > 1 ? 1 : std::min<size_t>(64, most);
+    const size_t items = (strands + width - 1) / width;
+    launch(pass, extra, (items + group - 1) / group * group, group);
+}
+
+// The queue reads what it is given later: kept until take_times() has waited for it.
+void Solver::send(const std::string& name, const void* data, size_t bytes)
+{
+    if (bytes == 0)
+        return;
+    const char* first = static_cast<const char*>(data);
+    in_flight_.emplace_back(first, first + bytes);
+    device_.queue.enqueueWriteBuffer(buffer(name), CL_FALSE, 0, bytes, in_flight_.back().data());
+}
+
+static Capsule capsule_of(glm::dvec3 center, glm::dvec3 axis, float radius)
+{
+    // An axis that is short against the radius is none.
+    const double squared = glm::dot(axis, axis), least = 1e-6 * double(radius) * double(radius);
+    return {F4(float(center.x), float(center.y), float(center.z), radius),
+            F4(float(axis.x), float(axis.y), float(axis.z), squared > least ? float(1.0 / squared) : 0.0f)};
+}
+
+static glm::dvec3 axis_of(const Collider& c)
+{
+    return c.to ? glm::dvec3(*c.to) - glm::dvec3(c.center) : glm::dvec3(0.0);
+}
+
+std::vector<Capsule> Solver::placed_colliders() const
+{
+    std::vector<Capsule> placed;
+    for (const Collider& c : colliders_)
+        placed.push_back(c.on_head ? capsule_of(head_.turn * glm::dvec3(c.center), head_.turn * axis_of(c), c.radius)
+                                   : capsule_of(glm::dvec3(c.center) - head_.origin, axis_of(c), c.radius));
+    return placed;
+}
+
+void Solver::upload(const StepInfo& info)
+{
+    info_ = info;
+    send("info", &info, sizeof info);
+    const std::vector<Capsule> placed = placed_colliders();
+    send("colliders", placed.data(), placed.size() * sizeof(Capsule));
+}
+
+// Bodies as kernels/bodies.h wants them: the head's own first, in its frame; the others against the path's origin.
+void Solver::upload_direct(const StepPath& path, const Pose& before, bool teleport)
+{
+    send("path", &path, sizeof path);
+    const glm::dvec3 origin = teleport ? head_.origin : before.origin;
+    std::vector<Capsule> bodies;
+    for (const bool on_head : {true, false})
+        for (const Collider& c : colliders_)
+            if (c.on_head == on_head)
+                bodies.push_back(
+                    capsule_of(glm::dvec3(c.center) - (on_head ? glm::dvec3(0.0) : origin), axis_of(c), c.radius));
+    send("bodies", bodies.data(), bodies.size() * sizeof(Capsule));
+}
+
+void Solver::simulate(const StepInfo& info)
+{
+    const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
+    if (info.last_substep && density)
+        launch("clear_density", "", grid_voxels(params_));
+    if (params_.solver_kind == 0)
+        return simulate_direct(info);
+    launch_strands("simulate_pbd",
+                   fmt::format("{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                               density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : ""),
+                   size_t(groom_.blocks) * LANES);
+}
+
+void Solver::simulate_direct(const StepInfo& info)
+{
+    const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
+    // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
+    const double links = groom_.nodes - 2;
+    const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
+    // And stiffer than this, it does not bend, but for a body that it meets.
+    const bool contact = !colliders_.empty() || body_.grid;
+    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f && !contact)
+        return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
+    launch_strands("simulate_direct",
+                   fmt::format("{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
+                               bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
+                               repels ? "-D REPULSION " : "", contact ? "-D CONTACT " : "",
+                               body_.grid ? "-D BODY_GRID " : "", density ? "-D DENSITY " : ""),
+                   size_t(groom_.blocks) * LANES);
+    std::swap(buffers_["tension"], buffers_["tension_next"]);
+    std::swap(buffers_["pace"], buffers_["pace_next"]);
+}
+
+double Solver::fastest()
+{
+    const size_t strands = size_t(groom_.blocks) * LANES;
+    const std::vector<float> moved = read<float>(device_, buffer("moved"), strands);
+    device_.queue.enqueueFillBuffer(buffer("moved"), 0.0f, 0, strands * sizeof(float));
+    return double(*std::max_element(moved.begin(), moved.begin() + groom_.guides)) / std::max(watched_, 1e-9);
+}
+
+// Rest is two looks in a row, over half a second, in which no node moved by more than a two-hundredth of the longest
+// strand a second.
+void Solver::look_for_rest()
+{
+    calm_ = fastest() < 0.005 * double(groom_.longest) ? calm_ + 1 : 0;
+    asleep_ = calm_ >= 3; // the first saw what was before, too
+}
+
+void Solver::step(const std::vector<Substep>& wanted)
+{
+    std::vector<Substep> substeps;
+    for (const Substep& substep : wanted)
+        if (substep.seconds > 0.0f) // zero, negative or not a number: no step
+            substeps.push_back(substep);
+    if (substeps.empty())
+        return;
+    const Pose& to = substeps.back().head;
+    const bool outside = changed_ || to.origin != head_.origin || to.turn != head_.turn || to.wind != head_.wind ||
+                         info_.wind.w > 0.0f || params_.solver_kind != 0;
+    changed_ = false;
+    quiet_ = outside ? 0 : quiet_ + 1;
+    asleep_ &= !outside;
+    drawn_asleep_ &= asleep_;
+    if (asleep_)
+        return;
+    for (size_t i = 0; i < substeps.size(); ++i)
+    {
+        const Substep& now = substeps[i];
+        StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, now, int(colliders_.size()),
+                                       i + 1 == substeps.size(), body_);
+        if (info.teleport)
+            jumped_ += now.head.origin - head_.origin;
+        else
+            head_velocity_ = (now.head.origin - head_.origin) / double(now.seconds);
+        const Pose before = std::exchange(head_, now.head);
+        time_ = now.time;
+        if (params_.solver_kind == 0)
+        {
+            const StepPath path = make_step_path(params_, before, now, info.teleport, seconds_before_);
+            const long on_head = std::count_if(colliders_.begin(), colliders_.end(), [](auto& c) { return c.on_head; });
+            set_direct(info, path, groom_, rest_, int(on_head));
+            upload_direct(path, before, info.teleport);
+        }
+        seconds_before_ = now.seconds;
+        watched_ = double(now.seconds);
+        upload(info);
+        simulate(info);
+    }
+    if (quiet_ % kLookEvery == 0 && quiet_ > 0)
+        look_for_rest();
+    const bool repels = params_.forces_repulsion > 0.0f;
+    if (!repels && !has_shadow())
+        return;
+    const size_t chunks = grid_voxels(params_) / size_t(chunk(device_, params_));
+    const auto blur = [&](const char* box, int axis)
+    {
+        launch("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box), chunks);
+        std::swap(buffers_["density"], buffers_["blurred"]);
+    };
+    for (int axis = 0; axis < 3 && info_.light_box.w > 0.0f; ++axis)
+        blur("light_box", axis);
+    if (!repels)
+        return;
+    const bool further = info_.push_box.w > 0.0f;
+    for (int axis = 0; axis < 3 && further; ++axis)
+    {
+        blur("push_box", axis);
+        if (axis == 0) // light goes on reading what was there before
+            std::swap(buffers_["blurred"], buffers_["lit"]);
+    }
+    launch("density_gradient", "", chunks);
+    if (further)
+        std::swap(buffers_["density"], buffers_["lit"]);
+}
+
+void Solver::draw()
+{
+    if (drawn_asleep_ && !changed_)
+        return;
+    drawn_asleep_ = asleep_ && !changed_;
+    // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
+    StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
+                                   int(colliders_.size()), true, body_);
+    upload(info);
+    const std::string options =
+        fmt::format("{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "");
+    if (has_shadow())
+    {
+        const size_t side = size_t(params_.grid_resolution);
+        device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
+                                        grid_voxels(params_) * sizeof(int));
+        if (!colliders_.empty())
+            launches_.emplace_back("add_bodies", run(device_, kernel("add_bodies", ""), buffers_,
+                                                     cl::NDRange(side, side, colliders_.size())));
+        if (body_.grid)
+            launches_.emplace_back(
+                "add_head", run(device_, kernel("add_head", ""), buffers_,
+                                cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
+        launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
+    }
+    launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
+    launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
+    launch_strands("transport_frames", "", groom_.drawn.size());
+}
+
+double sum_of(const PassTimes& times)
+{
+    double ms = 0.0;
+    for (const auto& [pass, spent] : times)
+        ms += spent;
+    return ms;
+}
+
+PassTimes Solver::take_times()
+{
+    device_.queue.finish();
+    in_flight_.clear();
+    for (const auto& [pass, event] : launches_)
+    {
+        const double ms = double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                 event.getProfilingInfo<CL_PROFILING_COMMAND_START>()) *
+                          1e-6;
+        const auto found = std::find_if(times_.begin(), times_.end(), [&](const auto& t) { return t.first == pass; });
+        if (found == times_.end())
+            times_.emplace_back(pass, ms);
+        else
+            found->second += ms;
+    }
+    launches_.clear();
+    return std::exchange(times_, {});
+}
+
+} // namespace coif
