@@ -287,7 +287,7 @@ Mesh load_mesh(const std::filesystem::path& file)
     const std::string name = file.string();
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
-        throw fail("{}: there is no such file", name);
+        throw fail("{}: {}", name, std::filesystem::exists(file, error) ? "is no plain file" : "there is no such file");
     if (std::filesystem::file_size(file, error) > (size_t(1) << 30))
         throw fail("{}: is larger than the 1 GB that coif reads of a mesh", name);
     Assimp::Importer importer;

@@ -232,6 +232,9 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     };
     const std::string bob = (scratch / "bob.toml").string();
     EXPECT_EQ(loaded(""), "no error");
+    EXPECT_EQ(loaded("[interpolation]\nrefine = 5\n").rfind(bob + ":2:10: interpolation.refine: 5 would give more", 0),
+              0u);
+    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is no plain file");
     EXPECT_EQ(
         loaded("\n[head]\nmesh = 'none.obj'\n").rfind(bob + ":3:8: head.mesh: no file 'none.obj', neither as ", 0), 0u);
     EXPECT_EQ(
