@@ -176,6 +176,7 @@ static std::vector<Rung> climb(const Device& device, const HairParams& params, c
 
 Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality)
 {
+    constexpr int kMostNodes = 64;
     quality = {};
     Hairstyle live = style;
     HairParams& p = live.params;
@@ -198,7 +199,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
         note(held, fmt::format("{} nodes", p.strand_nodes));
     else
     {
-        for (const int nodes : {8, 12, 16, 24, 32, 48, 64})
+        for (const int nodes : {8, 12, 16, 24, 32, 48, kMostNodes})
         {
             p.strand_nodes = nodes;
             if (error_of_links(nodes - 2) <= tolerance * 0.7)
@@ -211,9 +212,10 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     // Each refinement of the scalp has about four times as many guides.
     const bool guides_pinned = pinned(style, "interpolation.refine");
     const int vertices = int(scalp.positions.size());
+    const double of_guides = std::max(tolerance, error_of_links(kMostNodes - 2)); // guides never move better than that
     for (const int most = most_refinements(scalp); !guides_pinned && p.interpolation_refine < most;)
     {
-        if (error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) <= tolerance)
+        if (error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) <= of_guides)
             break;
         ++p.interpolation_refine;
     }
