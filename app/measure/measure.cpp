@@ -39,6 +39,8 @@ int measure(const Options& options, const MeasureOptions& wanted)
     fs::create_directories(folder, error);
     if (error)
         throw fail("{}: the folder cannot be made: {}", folder.string(), error.message());
+    if (access(folder.c_str(), W_OK | X_OK) != 0) // before a quarter of an hour's work, not after
+        throw fail("{}: the folder cannot be written into", folder.string());
     const Device device = open_device(options);
     Measuring with{device, wanted.quick};
     const bool terminal = isatty(STDERR_FILENO);
@@ -62,11 +64,11 @@ int measure(const Options& options, const MeasureOptions& wanted)
     if (terminal)
         fmt::print(stderr, "\r\033[K");
 
+    fmt::print("{}", table_of(rows)); // first: it needs no room on a disk
+    std::fflush(stdout);
     write_file(folder / "measure.csv", csv_of(rows));
     write_file(folder / "measure.json", json_of(rows, device.name, wanted.quick));
     const std::string trouble = write_plots(folder, plots_of(rows));
-    fmt::print("{}", table_of(rows));
-    std::fflush(stdout); // before the words
     if (!trouble.empty())
         fmt::print(stderr, "coif: {}\n", trouble);
     const auto missed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed(); });

@@ -121,6 +121,8 @@ int run_stress(const Options& options, const StressOptions& wanted)
     std::filesystem::create_directories(ground.folder, error);
     if (error)
         throw fail("{}: cannot be made: {}", ground.folder.string(), error.message());
+    if (access(ground.folder.c_str(), W_OK | X_OK) != 0) // before minutes of work, not after
+        throw fail("{}: cannot be written into", ground.folder.string());
 
     const bool progress = isatty(STDERR_FILENO);
     fmt::print("{}, seed {}\n", ground.device.name, ground.seed);
