@@ -42,11 +42,10 @@ class Commands : public testing::Test
         return {std::istreambuf_iterator<char>(in), {}};
     }
     // Runs coif in the folder, without a display.
-    Result coif(const std::string& arguments) const
+    Result coif(const std::string& arguments, const std::string& display = "-u DISPLAY") const
     {
-        const std::string command = "cd '" + folder.string() +
-                                    "' && env -u DISPLAY -u WAYLAND_DISPLAY '" COIF_BUILD_FOLDER "/coif' " + arguments +
-                                    " > out.txt 2> err.txt < /dev/null";
+        const std::string command = "cd '" + folder.string() + "' && env -u WAYLAND_DISPLAY " + display +
+                                    " '" COIF_BUILD_FOLDER "/coif' " + arguments + " > out.txt 2> err.txt < /dev/null";
         Result result;
         const int status = std::system(command.c_str());
         result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -152,6 +151,9 @@ TEST_F(Commands, without_a_display_the_editor_takes_a_picture_and_says_where)
     EXPECT_NE(result.err.find("there is no display"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find((folder / "small.png").string()), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(fs::remove(folder / "small.png"));
+    const Result deaf = coif("small.toml --set interpolation.strands=50", "DISPLAY=:4242 timeout 60");
+    EXPECT_EQ(deaf.status, 0) << "no server answers there: an editor would run for ever where nobody sees it";
     EXPECT_TRUE(fs::exists(folder / "small.png"));
 }
 
