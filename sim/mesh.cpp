@@ -24,6 +24,7 @@ namespace coif
 {
 
 static constexpr size_t kMostVertices = 65536; // of a scalp
+static constexpr float kFurthest = 1e6f;       // of a mesh: a head in micrometres is within it
 
 static bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -238,6 +239,9 @@ static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::ma
             const glm::vec3 position(world * glm::vec4(p.x, p.y, p.z, 1.0f));
             if (!is_finite(position))
                 throw fail("{}: vertex {} is not finite", file, i);
+            if (glm::length(position) > kFurthest)
+                throw fail("{}: vertex {} is further than {} from the origin; scale the mesh on export", file, i,
+                           kFurthest);
             mesh.positions.push_back(position);
         }
         for (unsigned f = 0; f < part.mNumFaces; ++f)
