@@ -94,7 +94,10 @@ int run_command(int argc, char** argv)
 
     const auto common = [&](CLI::App* command, bool style_needed)
     {
-        command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset")->required(style_needed);
+        CLI::Option* style = command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset");
+        if (style_needed) // an unset variable of the shell is no wish for the default
+            style->required()->check([](const std::string& name)
+                                     { return name.empty() ? std::string("a style without a name") : std::string(); });
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
         command->add_option("--tolerance", options.tolerance,
@@ -124,7 +127,7 @@ int run_command(int argc, char** argv)
         with_device(common(app.add_subcommand("report", "Play a motion and print health"), true));
     report_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
         ->capture_default_str();
-    report_command->add_option("--seconds", options.seconds, "How long")->capture_default_str();
+    report_command->add_option("--seconds", options.seconds, "How long, s")->capture_default_str();
     report_command->add_option("--fps", wanted.fps, "Frames a second that are looked at")->capture_default_str();
     report_command->add_option("--settle", wanted.settle, "Seconds at rest before the motion")->capture_default_str();
     report_command->add_flag("--json", wanted.json, "One JSON object");
@@ -138,7 +141,7 @@ int run_command(int argc, char** argv)
         ->description("Difference in motion that nobody would mind, of the hair's length: 3%, or what the style says");
     advise_command->add_option("--motion", advised.motion, "Motion to play: a file, or one of coif's")
         ->capture_default_str();
-    advise_command->add_option("--seconds", advised.seconds, "How long")->capture_default_str();
+    advise_command->add_option("--seconds", advised.seconds, "How long, s")->capture_default_str();
     CLI::Option* apply = advise_command->add_flag("--apply", advised.apply, "Write the cheaper style: NAME.lean.toml");
     advise_command->add_option("-o,--output", options.output, "File that --apply writes instead")->needs(apply);
     advise_command->add_flag("--json", advised.json, "One JSON object");
@@ -163,8 +166,9 @@ int run_command(int argc, char** argv)
         with_device(app.add_subcommand("lab", "Move one strand as its root is told, for comparing with references"));
     lab_command->add_option("--nodes", hung.strand.nodes, "Nodes, counting node 0, which is the root")
         ->capture_default_str();
-    lab_command->add_option("--length", hung.strand.length, "m")->capture_default_str();
-    lab_command->add_option("--drag", hung.drag, "1/s")->capture_default_str();
+    lab_command->add_option("--length", hung.strand.length, "From root to tip, m")->capture_default_str();
+    lab_command->add_option("--drag", hung.drag, "Rate at which the air takes velocity away, 1/s")
+        ->capture_default_str();
     lab_command->add_option("--tip-mass", hung.strand.tip_mass, "Mass of the last node against the others")
         ->capture_default_str();
     lab_command->add_option("--gamma", hung.gamma, "Droop number, clamped along the start direction; else no bending");
@@ -173,9 +177,10 @@ int run_command(int argc, char** argv)
     lab_command->add_option("--solver", hung.solver, "direct or pbd; the default is what styles have");
     lab_command->add_option("--fps", hung.fps, "Rows a second")->capture_default_str();
     lab_command->add_option("--root", hung.root, "CSV of t,x,y,z of node 0; a header line is allowed");
-    CLI::Option* lab_seconds = lab_command->add_option("--seconds", options.seconds, "How long");
+    CLI::Option* lab_seconds = lab_command->add_option("--seconds", options.seconds,
+                                                       "How long, s; with --root: at most as long as that lasts");
     lab_command->add_option("--set", options.sets, "group.key=value of solver and forces")->allow_extra_args(false);
-    lab_command->add_option("-o,--out", options.output, "CSV to write instead of the terminal");
+    lab_command->add_option("-o,--output", options.output, "CSV to write instead of the terminal");
 
     StressOptions strained;
     CLI::App* stress_command = with_device(app.add_subcommand("stress", "Play the solvers' extremes"));
@@ -183,7 +188,7 @@ int run_command(int argc, char** argv)
     stress_command->add_option("--only", strained.only, "Cases, by name")->delimiter(',');
     stress_command->add_option("--cases", strained.styles, "Random styles and motions");
     stress_command->add_option("--seed", strained.seed, "Of what is random")->capture_default_str();
-    stress_command->add_option("--seconds", strained.soak, "Of the soak, simulated");
+    stress_command->add_option("--seconds", strained.soak, "Of the soak, simulated s");
     stress_command->add_option("-o,--output", options.output, "Folder for tables, map and what failed (stress)");
 
     // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.

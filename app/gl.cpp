@@ -55,8 +55,10 @@ bool has_display()
         return false;
     if (SDL_Init(SDL_INIT_VIDEO) != 0)
         return false;
+    // Where the server that DISPLAY names does not answer, SDL takes a driver whose windows nobody sees.
+    const std::string driver = SDL_GetCurrentVideoDriver();
     SDL_QuitSubSystem(SDL_INIT_VIDEO);
-    return true;
+    return driver != "offscreen" && driver != "dummy" && driver != "evdev";
 }
 
 bool is_software_renderer()

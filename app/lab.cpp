@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace coif
@@ -13,8 +14,15 @@ int lab(const Options& options, const LabOptions& wanted, bool seconds_given)
     style.params.forces_drag = float(wanted.drag);
     if (!(wanted.drag >= 0.0 && wanted.drag <= 1e6))
         throw fail("--drag is {}, but must lie in [0, 1e+06] 1/s", wanted.drag);
+    if (!(std::abs(wanted.strand.angle) <= 360.0))
+        throw fail("--angle is {}, but must lie in [-360, 360] degrees", wanted.strand.angle);
     for (const std::string& set : options.sets)
-        assign(style, set);
+        if (set.starts_with("solver.") || set.starts_with("forces."))
+            assign(style, set);
+        else
+            throw fail("--set {}: of a style's parameters the lab reads solver.* and forces.* only; the strand is what "
+                       "--nodes, --length and --gamma say",
+                       set);
     if (!wanted.solver.empty())
         assign(style, "solver.kind=" + wanted.solver);
     LabStrand strand = wanted.strand;
@@ -32,6 +40,9 @@ int lab(const Options& options, const LabOptions& wanted, bool seconds_given)
         rows = load_root(wanted.root);
         const double begin = rows.times.front(), end = rows.times.back() - begin;
         seconds = seconds_given ? std::min(seconds, end) : end;
+        if (!seconds_given && end > 3600.0)
+            throw fail("{}: lasts {} s, but the lab moves a strand for an hour at most; say --seconds", wanted.root,
+                       end);
         root = [&rows, begin](double t) { return root_at(rows, begin + t); };
     }
     const Device device = open_device(options);

@@ -114,6 +114,8 @@ try
     std::sort(kept.begin(), kept.end());
     for (size_t i = 0; i + kMostFiles <= kept.size(); ++i)
         fs::remove(kept[i].second);
+    if (fs::is_symlink(file))
+        fs::remove(file); // what it names is somebody's
     if (fs::exists(file) && !fs::is_regular_file(file))
         return; // a pipe would wait for a reader
     const Header header = header_of(grid, mesh);

@@ -32,6 +32,8 @@ void make_folder(const fs::path& folder)
     fs::create_directories(folder, error);
     if (error)
         throw fail("{}: the folder cannot be made: {}", folder.string(), error.message());
+    if (access(folder.c_str(), W_OK | X_OK) != 0) // told before the work, not after
+        throw fail("{}: the folder cannot be written into", folder.string());
 }
 
 void write_file(const fs::path& file, const std::string& bytes)

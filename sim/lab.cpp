@@ -129,8 +129,13 @@ void Lab::look(LabRun& run) const
 LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root,
                double seconds, double fps, int copies)
 {
+    constexpr double kMostPositions = 1e7; // half a gigabyte, and as much again as text
     if (!(seconds >= 0.0 && seconds <= 3600.0))
         throw fail("--seconds is {}, but must lie in [0, 3600]", seconds);
+    if (seconds * fps * strand.nodes > kMostPositions)
+        throw fail("{} s at {} frames a second of {} nodes are more than the {} positions that a run may hold; ask for "
+                   "fewer --seconds, --fps or --nodes",
+                   seconds, fps, strand.nodes, kMostPositions);
     Lab lab(device, params, strand, root, fps, copies);
     LabRun run;
     lab.look(run);
@@ -147,9 +152,10 @@ LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& 
 RootRows load_root(const std::filesystem::path& file)
 {
     constexpr size_t kMostRows = 1 << 20;
+    constexpr double kFurthest = 1e6, kClosest = 1e-6; // m, s: between rows, slopes stay far from overflowing
     const std::string text = read_file(file);
     RootRows rows;
-    size_t begin = 0;
+    size_t begin = text.starts_with("\xef\xbb\xbf") ? 3 : 0; // spreadsheets mark UTF-8 so
     for (int line = 1; begin < text.size(); ++line)
     {
         const size_t end = std::min(text.find('\n', begin), text.size());
@@ -157,9 +163,13 @@ RootRows load_root(const std::filesystem::path& file)
         begin = end + 1;
         while (!row.empty() && (row.back() == '\r' || row.back() == ' '))
             row.remove_suffix(1);
+        while (!row.empty() && row.front() == ' ')
+            row.remove_prefix(1);
         if (row.empty())
             continue;
         double values[4];
+        if (line == 1 && std::from_chars(row.data(), row.data() + row.size(), values[0]).ec != std::errc())
+            continue; // the header
         int count = 0;
         bool good = true;
         const char* at = row.data();
@@ -181,12 +191,15 @@ RootRows load_root(const std::filesystem::path& file)
             }
         }
         good = good && count == 4 && (at == stop || *at == ','); // further columns do not matter
-        if (!good && line == 1)
-            continue; // the header
         if (!good)
             throw fail("{}:{}: expected four finite numbers, t,x,y,z", file.string(), line);
         if (!rows.times.empty() && !(values[0] > rows.times.back()))
             throw fail("{}:{}: time {} does not come after {}", file.string(), line, values[0], rows.times.back());
+        if (!rows.times.empty() && values[0] - rows.times.back() < kClosest)
+            throw fail("{}:{}: time {} comes less than a microsecond after {}", file.string(), line, values[0],
+                       rows.times.back());
+        if (std::max({std::abs(values[1]), std::abs(values[2]), std::abs(values[3])}) > kFurthest)
+            throw fail("{}:{}: a root further than {} m from the origin", file.string(), line, kFurthest);
         if (rows.times.size() >= kMostRows)
             throw fail("{}:{}: more than {} rows", file.string(), line, kMostRows);
         rows.times.push_back(values[0]);

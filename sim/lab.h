@@ -60,13 +60,13 @@ class Lab
     Solver solver_;
 };
 
-// Moves the strand for `seconds` and looks at it `fps` times a second, 0 included.
+// Moves the strand for `seconds` and looks at it `fps` times a second, 0 included; ten million nodes at most in all.
 LabRun run_lab(const Device& device, const HairParams& params, const LabStrand& strand, const RootPath& root,
                double seconds, double fps, int copies = 1);
 
-// A path through rows `t,x,y,z` (s, m; a header line is allowed; times rise), Catmull-Rom between them
-// (Catmull and Rom 1974, tangents for unequal times), at rest before the first and after the last. Throws Error with
-// file and line.
+// A path through rows `t,x,y,z` (s, m; a first line that does not begin with a number is a header; times rise),
+// Catmull-Rom between them (Catmull and Rom 1974, tangents for unequal times), at rest before the first and after the
+// last. Throws Error with file and line.
 struct RootRows
 {
     std::vector<double> times;

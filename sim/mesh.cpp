@@ -24,6 +24,7 @@ namespace coif
 {
 
 static constexpr size_t kMostVertices = 65536; // of a scalp
+static constexpr float kFurthest = 1e6f;       // of a mesh: a head in micrometres is within it
 
 static bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -238,6 +239,9 @@ static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::ma
             const glm::vec3 position(world * glm::vec4(p.x, p.y, p.z, 1.0f));
             if (!is_finite(position))
                 throw fail("{}: vertex {} is not finite", file, i);
+            if (glm::length(position) > kFurthest)
+                throw fail("{}: vertex {} is further than {} from the origin; scale the mesh on export", file, i,
+                           kFurthest);
             mesh.positions.push_back(position);
         }
         for (unsigned f = 0; f < part.mNumFaces; ++f)
@@ -287,7 +291,7 @@ Mesh load_mesh(const std::filesystem::path& file)
     const std::string name = file.string();
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
-        throw fail("{}: there is no such file", name);
+        throw fail("{}: {}", name, std::filesystem::exists(file, error) ? "is no plain file" : "there is no such file");
     if (std::filesystem::file_size(file, error) > (size_t(1) << 30))
         throw fail("{}: is larger than the 1 GB that coif reads of a mesh", name);
     Assimp::Importer importer;

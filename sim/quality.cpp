@@ -175,6 +175,7 @@ static std::vector<Rung> climb(const Device& device, const HairParams& params, c
 
 Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality)
 {
+    constexpr int kMostNodes = 64;
     quality = {};
     Hairstyle live = style;
     HairParams& p = live.params;
@@ -197,7 +198,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
         note(held, fmt::format("{} nodes", p.strand_nodes));
     else
     {
-        for (const int nodes : {8, 12, 16, 24, 32, 48, 64})
+        for (const int nodes : {8, 12, 16, 24, 32, 48, kMostNodes})
         {
             p.strand_nodes = nodes;
             if (error_of_links(nodes - 2) <= tolerance * 0.7)
@@ -207,12 +208,13 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     }
     quality.node_error = error_of_links(p.strand_nodes - 2);
 
-    // Each refinement of the scalp has about four times as many guides; sixteen times as many still drape in seconds.
+    // Each refinement of the scalp has about four times as many guides.
     const bool guides_pinned = pinned(style, "interpolation.refine");
     const int vertices = int(scalp.positions.size());
-    const int most = guides_pinned ? p.interpolation_refine : std::min(2, most_refinements(scalp));
+    const double of_guides = std::max(tolerance, error_of_links(kMostNodes - 2)); // guides never move better than that
+    const int most = guides_pinned ? p.interpolation_refine : most_refinements(scalp);
     while (p.interpolation_refine < most &&
-           error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > tolerance)
+           error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > of_guides)
         ++p.interpolation_refine;
     const Groom groom = grow(p, scalp);
     quality.guide_error = error_of_guides(p, scalp, groom.guides);

@@ -22,13 +22,12 @@ static std::filesystem::path asset(const Hairstyle& style, const std::string& ke
 Assets load_assets(const Hairstyle& style)
 {
     Assets assets;
-    // A fault in a file that the style names is told with the place where the style names it.
-    const auto load = [&](const char* key, const std::string& written, auto&& read)
+    // A fault in what the style names is told with the place where the style names it.
+    const auto placed = [&](const char* key, auto&& action)
     {
-        const std::filesystem::path file = asset(style, key, written);
         try
         {
-            return read(file);
+            return action();
         }
         catch (const Error& e)
         {
@@ -36,10 +35,17 @@ Assets load_assets(const Hairstyle& style)
             throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
         }
     };
+    const auto load = [&](const char* key, const std::string& written, auto&& read)
+    {
+        const std::filesystem::path file = asset(style, key, written);
+        return placed(key, [&] { return read(file); });
+    };
     if (style.host.scalp_mesh.empty())
         throw fail("{}: scalp.mesh must name an OBJ",
                    style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh") : style.name());
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
+    if (style.params.interpolation_refine > most_refinements(assets.scalp))
+        placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
     if (!style.host.head_spheres.empty())

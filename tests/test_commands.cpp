@@ -42,11 +42,10 @@ class Commands : public testing::Test
         return {std::istreambuf_iterator<char>(in), {}};
     }
     // Runs coif in the folder, without a display.
-    Result coif(const std::string& arguments) const
+    Result coif(const std::string& arguments, const std::string& display = "-u DISPLAY") const
     {
-        const std::string command = "cd '" + folder.string() +
-                                    "' && env -u DISPLAY -u WAYLAND_DISPLAY '" COIF_BUILD_FOLDER "/coif' " + arguments +
-                                    " > out.txt 2> err.txt < /dev/null";
+        const std::string command = "cd '" + folder.string() + "' && env -u WAYLAND_DISPLAY " + display +
+                                    " '" COIF_BUILD_FOLDER "/coif' " + arguments + " > out.txt 2> err.txt < /dev/null";
         Result result;
         const int status = std::system(command.c_str());
         result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -152,6 +151,9 @@ TEST_F(Commands, without_a_display_the_editor_takes_a_picture_and_says_where)
     EXPECT_NE(result.err.find("there is no display"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find((folder / "small.png").string()), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(fs::remove(folder / "small.png"));
+    const Result deaf = coif("small.toml --set interpolation.strands=50", "DISPLAY=:4242 timeout 60");
+    EXPECT_EQ(deaf.status, 0) << "no server answers there: an editor would run for ever where nobody sees it";
     EXPECT_TRUE(fs::exists(folder / "small.png"));
 }
 
@@ -207,6 +209,7 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
     EXPECT_EQ(coif("shot small.toml -o x.png --nonsense").status, 2);
     EXPECT_EQ(coif("check").status, 2);
     EXPECT_EQ(coif("report small.toml --seconds soon").status, 2);
+    EXPECT_EQ(coif("shot '' -o x.png").status, 2) << "a variable of the shell that is not set";
     EXPECT_EQ(coif("--help").status, 0);
     EXPECT_EQ(coif("shot nowhere.toml -o x.png").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --size 9000x10").status, 1);
@@ -216,6 +219,22 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
     EXPECT_EQ(coif("shot small.toml -o x.png --motion dance").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --device abacus").status, 1);
     EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
+TEST_F(Commands, the_lab_refuses_what_makes_no_sense)
+{
+    write("long.csv", "0,0,0,0\n1e300,1,0,0\n");
+    for (const char* bad : {"", "--seconds 1 --angle nan", "--seconds 3600 --fps 1e5 --nodes 256",
+                            "--seconds 1 --set strand.nodes=5", "--root long.csv"})
+    {
+        const Result result = coif(std::string("lab ") + bad);
+        EXPECT_EQ(result.status, 1) << bad;
+        EXPECT_EQ(result.out, "") << bad;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << bad << ": " << result.err;
+    }
+    EXPECT_EQ(coif("lab --root long.csv").err.find("coif: long.csv: lasts 1e+300 s"), 0u) << "whose time it is";
+    EXPECT_EQ(coif("lab --seconds 0.1 --nodes 3 --output lab.csv").status, 0);
+    EXPECT_EQ(contents("lab.csv").find("t,x0,y0,z0,x1,y1,z1,x2,y2,z2\n0,0,0,0,"), 0u);
 }
 
 TEST_F(Commands, measure_writes_rows_that_make_sense_and_passes)
@@ -249,6 +268,15 @@ TEST_F(Commands, measure_writes_rows_that_make_sense_and_passes)
     EXPECT_EQ(unknown.status, 1);
     EXPECT_NE(unknown.err.find("--only A99: there is no such scene; there are A1,"), std::string::npos) << unknown.err;
     EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST_F(Commands, measure_prints_its_table_even_where_it_cannot_write)
+{
+    fs::create_directories(folder / "full" / "measure.csv"); // a folder where the file belongs
+    const Result result = coif("measure --quick --only A5 -o full");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.out.find("A5"), std::string::npos) << "the work of minutes";
+    EXPECT_NE(result.err.find("full/measure.csv: cannot be written"), std::string::npos) << result.err;
 }
 
 TEST_F(Commands, measure_holds_the_solver_to_its_references)

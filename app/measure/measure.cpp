@@ -42,11 +42,11 @@ int measure(const Options& options, const MeasureOptions& wanted)
     }
     line.clear();
 
+    fmt::print("{}", table_of(rows)); // first: it needs no room on a disk
+    std::fflush(stdout);
     write_file(folder / "measure.csv", csv_of(rows));
     write_file(folder / "measure.json", json_of(rows, device.name, wanted.quick));
     const std::string trouble = write_plots(folder, plots_of(rows));
-    fmt::print("{}", table_of(rows));
-    std::fflush(stdout); // before the words
     if (!trouble.empty())
         fmt::print(stderr, "coif: {}\n", trouble);
     const auto missed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed(); });

@@ -346,6 +346,11 @@ TEST(DistanceCache, does_without_where_it_cannot_write)
     fs::remove(file);
     fs::create_directories(file / "more");
     EXPECT_TRUE(equal(cached_distance_grid(mesh, scratch / "cache", 16), grid));
+    // A link to somebody's file is replaced, not followed.
+    fs::remove_all(file);
+    fs::create_symlink(scratch.write("theirs", "theirs"), file);
+    EXPECT_TRUE(equal(cached_distance_grid(mesh, scratch / "cache", 16), grid));
+    EXPECT_EQ(bytes_of(scratch / "theirs"), "theirs");
 }
 
 TEST(DistanceCache, does_not_grow_for_ever)

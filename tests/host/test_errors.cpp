@@ -232,6 +232,12 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     };
     const std::string bob = (scratch / "bob.toml").string();
     EXPECT_EQ(loaded(""), "no error");
+    EXPECT_EQ(loaded("[interpolation]\nrefine = 5\n").rfind(bob + ":2:10: interpolation.refine: 5 would give more", 0),
+              0u);
+    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is no plain file");
+    scratch.write("giant.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n");
+    EXPECT_NE(loaded("[head]\nmesh = 'giant.obj'\n").find("is further than 1000000 from the origin"),
+              std::string::npos);
     EXPECT_EQ(
         loaded("\n[head]\nmesh = 'none.obj'\n").rfind(bob + ":3:8: head.mesh: no file 'none.obj', neither as ", 0), 0u);
     EXPECT_EQ(

@@ -59,6 +59,8 @@ TEST(Lab, a_file_may_have_headings_spaces_blank_lines_and_further_columns)
     ASSERT_EQ(rows.times, (std::vector<double>{0.0, 0.5, 1.5}));
     EXPECT_EQ(rows.points[1], glm::dvec3(1e-3, -2.5, 3));
     EXPECT_EQ(load_root(scratch.write("bare.csv", "0,0,0,0\n1,1,1,1\n")).times.size(), 2u) << "without headings";
+    EXPECT_EQ(load_root(scratch.write("bom.csv", "\xef\xbb\xbf 0,0,0,0\n1,1,1,1\n")).times.size(), 2u)
+        << "a spreadsheet's mark of UTF-8 is no heading";
 }
 
 TEST(Lab, files_that_are_no_paths_are_told_with_their_line)
@@ -83,6 +85,10 @@ TEST(Lab, files_that_are_no_paths_are_told_with_their_line)
     EXPECT_EQ(told("0,0,0,0\n1,0,0,0x\n"), ":2" + numbers);
     EXPECT_EQ(told("0,0,0,0\n1;0;0;0\n"), ":2" + numbers);
     EXPECT_EQ(told("0,0,0,0\nt,x,y,z\n"), ":2" + numbers) << "headings come first or not at all";
+    EXPECT_EQ(told("0,nan,0,0\n1,0,0,0\n2,0,0,0\n"), ":1" + numbers) << "a row that begins with a number is no heading";
+    EXPECT_EQ(told("0;0;0;0\n1,0,0,0\n2,0,0,0\n"), ":1" + numbers);
+    EXPECT_EQ(told("0,0,0,0\n1,0,-1e300,0\n"), ":2: a root further than 1000000 m from the origin");
+    EXPECT_EQ(told("0,0,0,0\n1e-300,0,0,0\n"), ":2: time 1e-300 comes less than a microsecond after 0");
     EXPECT_EQ(told("0,0,0,0\n1,0,0,0\n1,0,0,0\n"), ":3: time 1 does not come after 1");
     EXPECT_EQ(told("0,0,0,0\n1,0,0,0\n0.5,0,0,0\n"), ":3: time 0.5 does not come after 1");
     EXPECT_EQ(told(std::string("0,0,0,0\n1,0,\0,0\n", 17)), ":2" + numbers);
