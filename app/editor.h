@@ -72,7 +72,7 @@ class Editor
     void reset_hair();
     void note_resets();
     void keep_view();
-    void apply(); // what changed in style_
+    void apply();          // what changed in style_
     void compare(bool on); // with the style as saved
     void undo_last();
     void go_back(size_t edit); // or forth, to that state of history_
@@ -102,8 +102,8 @@ class Editor
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
     int redraw_ = 1; // frames that are still to be drawn though time may stand still
-    bool show_panel_ = true, show_help_ = false, show_history_ = false, comparing_ = false, ask_save_as_ = false, ask_open_ = false,
-         transparent_ = false;
+    bool show_panel_ = true, show_help_ = false, show_history_ = false, comparing_ = false, ask_save_as_ = false,
+         ask_open_ = false, transparent_ = false;
     bool message_is_error_ = false;
     double frame_ms_ = 0.0;
     Uint64 last_tick_ = 0;

@@ -1,5 +1,5 @@
-// One axis of a box blur of the density: three runs, along x, y and z, equal the cube. The box is so many whole voxels to
-// each side and a part of the next, which gives it any variance (Gwosdek, Grewenig, Bruhn, Weickert. Theoretical
+// One axis of a box blur of the density: three runs, along x, y and z, equal the cube. The box is so many whole voxels
+// to each side and a part of the next, which gives it any variance (Gwosdek, Grewenig, Bruhn, Weickert. Theoretical
 // foundations of Gaussian convolution by extended box filtering. 2011): a width in metres asks for no whole voxels.
 // Beyond the grid the density is zero.
 //
