@@ -1,6 +1,7 @@
 #include "app/editor.h"
 
 #include "app/lettering.h"
+#include "app/sequence.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
@@ -171,12 +172,7 @@ bool Editor::save(const std::filesystem::path& file)
 
 std::filesystem::path Editor::screenshot()
 {
-    std::filesystem::path file, name = screenshot_name_.empty() ? style_.name() : screenshot_name_;
-    if (name.extension() == ".png")
-        name.replace_extension();
-    std::error_code error;
-    for (int n = 1; file.empty() || std::filesystem::exists(file, error); ++n)
-        file = fmt::format("{}-{:03}.png", name.string(), n);
+    const std::filesystem::path file = unused_name(screenshot_name_.empty() ? style_.name() : screenshot_name_);
     int width = view_width_, height = view_height_;
     std::sscanf(screenshot_size_.c_str(), "%dx%d", &width, &height);
     guarded(

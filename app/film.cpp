@@ -50,13 +50,13 @@ std::vector<std::string> film_command(const std::string& format, const fs::path&
     add({"-f", "rawvideo", "-pixel_format", "rgba", "-video_size", fmt::format("{}x{}", width, height)});
     add({"-framerate", fmt::format("{}", fps), "-i", "pipe:0"});
     // Colour is kept at half the size, so sides must be even: an odd last row or column goes. Players take the colours
-    // of what says nothing for those of old television.
-    const std::string even = "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=";
+    // of a film that says nothing for those of old television.
+    const std::string even = "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
+    const std::string colors = "setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1";
     if (format == "gif")
         add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}); // the film's own 256 colours
     else
-        add({"-vf", even + (transparent ? "yuva420p" : "yuv420p"), "-colorspace", "bt709", "-color_primaries", "bt709",
-             "-color_trc", "iec61966-2-1"});
+        add({"-vf", fmt::format("{},format={},{}", even, transparent ? "yuva420p" : "yuv420p", colors)});
     if (format == "mp4")
         add({"-crf", "18", "-movflags", "+faststart"});
     if (format == "webm")

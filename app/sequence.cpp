@@ -87,6 +87,16 @@ std::string numbered(const std::string& pattern, int number)
     return pattern.substr(0, at) + fmt::format("{:0{}}", number, digits) + pattern.substr(at + length);
 }
 
+fs::path unused_name(const std::string& name)
+{
+    const std::string stem = name.ends_with(".png") ? name.substr(0, name.size() - 4) : name;
+    fs::path file;
+    std::error_code error;
+    for (int n = 1; file.empty() || fs::exists(file, error); ++n)
+        file = fmt::format("{}-{:03}.png", stem, n);
+    return file;
+}
+
 int shoot_sequence(const Options& options, const ShotOptions& shot, const SequenceOptions& wanted)
 {
     check_shot(options, shot);

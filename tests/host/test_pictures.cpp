@@ -80,6 +80,17 @@ TEST(Sequence, names_are_numbered_and_never_taken_for_a_format)
     EXPECT_NE(error_of([] { numbered_pattern("%d/a.png"); }).find("folder"), std::string::npos);
 }
 
+TEST(Sequence, a_picture_never_takes_the_name_of_another)
+{
+    const Scratch scratch;
+    const std::string name = (scratch / "my.hair").string();
+    EXPECT_EQ(unused_name(name), name + "-001.png");
+    scratch.write("my.hair-001.png", "");
+    scratch.write("my.hair-003.png", "");
+    EXPECT_EQ(unused_name(name + ".png"), name + "-002.png");
+    EXPECT_EQ(unused_name("no/such/x"), "no/such/x-001.png");
+}
+
 TEST(Film, its_format_is_in_the_name)
 {
     EXPECT_EQ(film_format("a.mp4"), "mp4");
