@@ -72,6 +72,15 @@ static fs::path place_of(const fs::path& file)
     return fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file; // as write_file()
 }
 
+static char unfinished[4096]; // path of the film that is being written
+
+static void leave_nothing(int signal) // calls only what may be called at any moment
+{
+    unlink(unfinished);
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+}
+
 Film::Film(const fs::path& file, int width, int height, double fps, bool transparent)
     : file_(place_of(file)), beside_(file_.string() + fmt::format(".{}.new", getpid())),
       frame_bytes_(size_t(4) * size_t(width) * size_t(height))
@@ -98,12 +107,23 @@ Film::Film(const fs::path& file, int width, int height, double fps, bool transpa
         throw fail("{}: ffmpeg cannot be started: {}", file.string(), std::strerror(error));
     }
     pipe_ = ends[1];
-    before_ = std::signal(SIGPIPE, SIG_IGN); // after ffmpeg has started, which would inherit it
+    assert(!*unfinished && beside_.native().size() < sizeof unfinished);
+    std::strncpy(unfinished, beside_.c_str(), sizeof unfinished - 1);
+    // Only now that ffmpeg has started, which would inherit what is ignored.
+    for (const auto& [signal, handler] :
+         {std::pair(SIGPIPE, SIG_IGN), {SIGINT, leave_nothing}, {SIGTERM, leave_nothing}, {SIGHUP, leave_nothing}})
+    {
+        before_.emplace_back(signal, std::signal(signal, handler));
+        if (before_.back().second == SIG_IGN)
+            std::signal(signal, SIG_IGN);
+    }
 }
 
 Film::~Film()
 {
-    std::signal(SIGPIPE, before_);
+    for (const auto& [signal, handler] : before_)
+        std::signal(signal, handler);
+    *unfinished = 0;
     if (process_ < 0)
         return;
     kill(process_, SIGTERM);

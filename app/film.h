@@ -2,6 +2,7 @@
 #include "app/image.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coif
@@ -18,7 +19,7 @@ std::vector<std::string> film_command(const std::string& format, const std::file
                                       int height, double fps, bool transparent);
 
 // A film that ffmpeg writes beside its place while pictures come in; finish() renames it over. One that is not finished
-// leaves nothing behind.
+// leaves nothing behind, even where the user breaks it off. There can be one at a time.
 class Film
 {
   public:
@@ -37,7 +38,7 @@ class Film
     std::filesystem::path file_, beside_;
     size_t frame_bytes_;
     int pipe_ = -1, process_ = -1;
-    void (*before_)(int) = nullptr; // what a broken pipe did
+    std::vector<std::pair<int, void (*)(int)>> before_; // signals and what they did
 };
 
 } // namespace coif

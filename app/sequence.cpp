@@ -4,6 +4,7 @@
 #include "app/progress.h"
 #include "sim/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -105,6 +106,8 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
     const std::string format = film_format(output);
     if (format == "mp4" && shot.transparent)
         throw fail("-o {}: an mp4 has no alpha; take .webm or .gif, or pictures", options.output);
+    if (!format.empty() && std::min(shot.width, shot.height) < 2)
+        throw fail("--size {}x{}: a film needs two pixels each way", shot.width, shot.height);
     const std::string pattern =
         numbered_pattern(format.empty() ? options.output : fs::path(output).replace_extension(".png").string());
     check_folder(output);

@@ -198,6 +198,18 @@ TEST_F(Pictures, a_film_that_ffmpeg_cannot_make_leaves_the_old_one)
     }
 }
 
+TEST_F(Pictures, a_film_broken_off_leaves_the_old_one)
+{
+    write("clip.mp4", "old");
+    const std::string interrupts =
+        "echo part > \"${last#file:}\"; head -c 20000 > /dev/null; kill -INT $PPID; cat > /dev/null";
+    const Result run =
+        coif(std::string("shot small.toml --frames 0:99999 -o clip.mp4") + kSmall, with_ffmpeg(interrupts));
+    EXPECT_EQ(run.status, 130) << run.err;
+    EXPECT_EQ(contents("clip.mp4"), "old");
+    EXPECT_FALSE(has_litter());
+}
+
 TEST_F(Pictures, without_ffmpeg_the_pictures_are_kept_and_it_is_said)
 {
     // What the device's compiler needs of PATH is built by now.
