@@ -46,7 +46,7 @@ static std::vector<ImWchar> letters_of(const std::string& text)
     return letters;
 }
 
-Line line_of(const std::string& text, int pixels, int most)
+TextLine line_of(const std::string& text, int pixels, int most)
 {
     std::vector<ImWchar> letters = letters_of(text);
     ImFontGlyphRangesBuilder needed;
@@ -80,7 +80,7 @@ Line line_of(const std::string& text, int pixels, int most)
         letters.insert(letters.end(), 3, ImWchar('.'));
     }
 
-    Line line{std::min(width_of(letters), most), int(std::ceil(font->FontSize)), {}};
+    TextLine line{std::min(width_of(letters), most), int(std::ceil(font->FontSize)), {}};
     line.coverage.resize(size_t(std::max(line.width, 0)) * size_t(line.height));
     float pen = 0.0f;
     for (const ImWchar letter : letters)
@@ -102,7 +102,7 @@ Line line_of(const std::string& text, int pixels, int most)
     return line;
 }
 
-void write_line(Image& image, const Line& line, int x, int y, Shade shade)
+void write_line(Image& image, const TextLine& line, int x, int y, Shade shade)
 {
     for (int row = std::max(0, -y); row < std::min(line.height, image.height - y); ++row)
         for (int column = std::max(0, -x); column < std::min(line.width, image.width - x); ++column)

@@ -11,7 +11,7 @@ namespace coif
 std::filesystem::path font_file();
 
 // One line of text: how much of each pixel it covers, 0 to 255, top row first.
-struct Line
+struct TextLine
 {
     int width = 0, height = 0;
     std::vector<unsigned char> coverage;
@@ -19,7 +19,7 @@ struct Line
 
 // UTF-8 text, letters about `pixels` high. A line wider than `most` pixels ends in dots instead; what the font lacks
 // becomes a question mark.
-Line line_of(const std::string& text, int pixels, int most);
+TextLine line_of(const std::string& text, int pixels, int most);
 
 struct Shade // sRGB
 {
@@ -27,7 +27,7 @@ struct Shade // sRGB
 };
 
 // Draws the line with its upper left corner at (x, y). What sticks out of the picture is cut off.
-void write_line(Image& image, const Line& line, int x, int y, Shade shade);
+void write_line(Image& image, const TextLine& line, int x, int y, Shade shade);
 
 // Fills a part that lies within the picture.
 void fill(Image& image, int x, int y, int width, int height, Shade shade);

@@ -8,11 +8,15 @@
 namespace coif
 {
 
-void show_progress(const std::string& doing)
+static void write_over(const std::string& text)
 {
     static const bool terminal = isatty(STDERR_FILENO);
     if (terminal)
-        fmt::print(stderr, "\r\033[K{}", doing);
+        fmt::print(stderr, "\r\033[K{}", text);
 }
+
+void Progress::say(const std::string& doing) { write_over(doing); }
+
+void Progress::clear() { write_over({}); }
 
 } // namespace coif

@@ -4,8 +4,17 @@
 namespace coif
 {
 
-// One line on the terminal that each call writes over, "bob (3 of 10)"; empty: takes it away. Nothing where words go to
-// a file.
-void show_progress(const std::string& doing);
+// One line on the terminal, "bob (3 of 10)", that each word writes over and that goes at the end, or before what is to
+// stay. Nothing where words go to a file.
+class Progress
+{
+  public:
+    Progress() = default;
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+
+    void say(const std::string& doing);
+    void clear();
+};
 
 } // namespace coif

@@ -125,9 +125,10 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
     std::optional<Film> film;
     if (film_wanted && !without)
         film.emplace(output, shot.width, shot.height, wanted.fps, shot.transparent);
+    Progress progress;
     for (const Frame& frame : frames)
     {
-        show_progress(fmt::format("picture {} of {}", &frame - frames.data() + 1, frames.size()));
+        progress.say(fmt::format("picture {} of {}", &frame - frames.data() + 1, frames.size()));
         studio.play_to(frame.seconds);
         const Image image = studio.picture(frame.turn);
         if (film)
@@ -137,7 +138,7 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
     }
     if (film)
         film->finish();
-    show_progress("");
+    progress.clear();
     if (film)
         fmt::print(stderr, "wrote {}: {} pictures, {:.3g} s\n", options.output, frames.size(),
                    double(frames.size()) / wanted.fps);

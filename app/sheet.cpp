@@ -63,7 +63,7 @@ std::vector<std::string> sheet_labels(const std::vector<std::string>& styles)
     return labels;
 }
 
-static void write_centered(Image& sheet, const Line& line, int x, int width, int y, Shade shade)
+static void write_centered(Image& sheet, const TextLine& line, int x, int width, int y, Shade shade)
 {
     write_line(sheet, line, x + (width - line.width) / 2, y, shade);
 }
@@ -83,12 +83,13 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
 
     Image page{at.width, at.height, std::vector<unsigned char>(size_t(4) * size_t(at.width) * size_t(at.height))};
     fill(page, 0, 0, at.width, at.height, kPage);
+    Progress progress;
     size_t failed = 0;
     for (size_t i = 0; i < labels.size(); ++i)
     {
         const int x = at.x(int(i)), y = at.y(int(i));
         bool drawn = true;
-        show_progress(fmt::format("{} ({} of {})", labels[i], i + 1, labels.size()));
+        progress.say(fmt::format("{} ({} of {})", labels[i], i + 1, labels.size()));
         try
         {
             Options one = options;
@@ -102,7 +103,7 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
         }
         catch (const Error& e)
         {
-            show_progress("");
+            progress.clear();
             const std::string why = e.what();
             fmt::print(stderr, "coif: {}{}\n", why.find(labels[i]) == why.npos ? labels[i] + ": " : "", why);
             drawn = false;
@@ -114,7 +115,7 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
         write_centered(page, line_of(labels[i], at.letters, at.cell_width), x, at.cell_width,
                        y + at.cell_height + at.letters / 2, drawn ? kName : kFailed);
     }
-    show_progress("");
+    progress.clear();
     if (failed == labels.size())
         throw fail("{}: none of the styles could be drawn, so there is no sheet", options.output);
     save_png(options.output, page);

@@ -173,7 +173,7 @@ TEST(Sheet, labels_are_names_and_tell_equal_names_apart)
 
 TEST(Lettering, letters_cover_pixels_and_differ)
 {
-    const Line line = line_of("bob", 20, 1000), other = line_of("bod", 20, 1000);
+    const TextLine line = line_of("bob", 20, 1000), other = line_of("bod", 20, 1000);
     EXPECT_GT(line.width, 15);
     EXPECT_LT(line.width, 60);
     ASSERT_EQ(line.coverage.size(), size_t(line.width * line.height));
@@ -190,7 +190,7 @@ TEST(Lettering, long_lines_end_in_dots_and_strange_letters_do_no_harm)
     for (const int most : {0, 1, 5, 20, 21, 100})
         EXPECT_LE(line_of(name, 20, most).width, most);
     EXPECT_EQ(line_of(name, 20, 100).coverage, line_of(name + "x", 20, 100).coverage);
-    const Line line = line_of("a\n\xff\xc3\xa4\xf0\x9f\x92\x87\xe4\xb8\xad", 20, 1000);
+    const TextLine line = line_of("a\n\xff\xc3\xa4\xf0\x9f\x92\x87\xe4\xb8\xad", 20, 1000);
     EXPECT_GT(line.width, 30);
     EXPECT_NE(line_of("\xc3\xa4", 20, 1000).coverage, line_of("a", 20, 1000).coverage) << "dots on an a";
 }
@@ -198,7 +198,7 @@ TEST(Lettering, long_lines_end_in_dots_and_strange_letters_do_no_harm)
 TEST(Lettering, what_sticks_out_is_cut_off)
 {
     Image image{8, 8, std::vector<unsigned char>(256, 10)};
-    const Line block{20, 20, std::vector<unsigned char>(400, 255)};
+    const TextLine block{20, 20, std::vector<unsigned char>(400, 255)};
     for (const auto& [x, y] : {std::pair(-30, 0), {0, -30}, {9, 9}, {8, 0}, {-20, -20}})
         write_line(image, block, x, y, {1, 2, 3});
     EXPECT_EQ(image.pixels, std::vector<unsigned char>(256, 10));
