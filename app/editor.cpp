@@ -85,6 +85,7 @@ Editor::Editor(const Options& options)
     known_time_ = written_at(style_.file);
     camera_ = camera_of(style_.params);
     apply();
+    history_ = begin_history(style_, saved_);
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
     last_tick_ = SDL_GetPerformanceCounter();
 }
@@ -98,6 +99,7 @@ Editor::~Editor()
 
 void Editor::apply()
 {
+    comparing_ = false;
     guarded([&] { simulation_->set_style(style_); });
     style_ = simulation_->style(); // the last good one, if that failed
     unsaved_ = false;
@@ -127,6 +129,40 @@ void Editor::take(const std::filesystem::path& file)
             message_.clear();
         });
     apply();
+    note_edit(history_, style_, saved_, "opened " + style_.name());
+}
+
+void Editor::go_back(size_t edit)
+{
+    note_edit(history_, style_, saved_); // what is still being done
+    const size_t before = history_.now;
+    const Edit state = go_to(history_, edit);
+    if (state.style.file != style_.file)
+    {
+        guarded([&] { simulation_->set_style(state.style, true); });
+        known_time_ = written_at(state.style.file);
+    }
+    style_ = state.style;
+    saved_ = state.saved;
+    apply();
+    if (!difference(style_, state.style).empty()) // it cannot be had again: its meshes may be gone
+        history_.now = before;
+}
+
+// While it is on, the hair is as it was saved, in the same motion.
+void Editor::compare(bool on)
+{
+    if (on == comparing_)
+        return;
+    comparing_ = on;
+    guarded([&] { simulation_->set_style(on ? saved_ : style_); });
+    redraw_ = kRedraw;
+}
+
+void Editor::undo_last()
+{
+    note_edit(history_, style_, saved_); // what is still being done is the last
+    go_back(history_.now - std::min<size_t>(history_.now, 1));
 }
 
 void Editor::open(const std::filesystem::path& file) { carry_out(file); }
@@ -160,6 +196,7 @@ bool Editor::save(const std::filesystem::path& file)
         {
             save_hairstyle(style_, file);
             saved_ = style_;
+            note_save(history_, saved_);
             known_time_ = written_at(file);
             simulation_->set_style(style_);
             message_ = "saved " + file.string();
@@ -228,7 +265,11 @@ void Editor::handle_key(const SDL_Keysym& key)
             save(style_.file);
         return;
     }
-    if (control && key.sym == SDLK_o)
+    if (control && ((key.sym == SDLK_z && shift) || key.sym == SDLK_y))
+        go_back(history_.now + 1);
+    else if (control && key.sym == SDLK_z)
+        undo_last();
+    else if (control && key.sym == SDLK_o)
         ask_open_ = true;
     else if (control && key.sym == SDLK_q)
         carry_out(Close{});
@@ -252,6 +293,12 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_p:
     case SDLK_F12:
         screenshot();
+        break;
+    case SDLK_c:
+        compare(true);
+        break;
+    case SDLK_u:
+        show_history_ = !show_history_;
         break;
     case SDLK_f:
         frame_head(camera_, *simulation_);
@@ -343,6 +390,10 @@ void Editor::handle(const SDL_Event& event)
         if (!io.WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) // a dialog has the keyboard
             handle_key(event.key.keysym);
         break;
+    case SDL_KEYUP:
+        if (event.key.keysym.sym == SDLK_c)
+            compare(false);
+        break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEWHEEL:
         if (!io.WantCaptureMouse)
@@ -414,7 +465,9 @@ bool Editor::frame()
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();
     ImGui::NewFrame();
-    draw_ui(); // may change the style, which shows in this very frame
+    draw_ui();                                                 // may change the style, which shows in this very frame
+    if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE) // a drag is one edit
+        note_edit(history_, style_, saved_);
     ImGui::Render();
 
     guarded(

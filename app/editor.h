@@ -1,4 +1,5 @@
 #pragma once
+#include "app/history.h"
 #include "app/options.h"
 #include "app/panel.h"
 #include "app/renderer.h"
@@ -43,6 +44,7 @@ class Editor
     bool paused() const { return paused_; }
     double frame_ms() const { return frame_ms_; }
     const std::string& message() const { return message_; }
+    const History& history() const { return history_; }
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
@@ -62,18 +64,23 @@ class Editor
     void draw_tools();
     void draw_dialogs();
     void draw_status();
+    void draw_history();
     void draw_quality(float top);
     void take(const std::filesystem::path& file); // opens without asking
     void reset_hair();
     void note_resets();
     void keep_view();
     void apply(); // what changed in style_
+    void compare(bool on); // with the style as saved
+    void undo_last();
+    void go_back(size_t edit); // or forth, to that state of history_
     void carry_out(const Intent& intent);
     template <typename Action> void guarded(Action&& action); // errors become the message
 
     Window window_;
     Device device_;
     Hairstyle style_, saved_; // as edited; as last read or written
+    History history_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
@@ -93,7 +100,8 @@ class Editor
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
     int redraw_ = 1; // frames that are still to be drawn though time may stand still
-    bool show_panel_ = true, show_help_ = false, ask_save_as_ = false, ask_open_ = false, transparent_ = false;
+    bool show_panel_ = true, show_help_ = false, show_history_ = false, comparing_ = false, ask_save_as_ = false, ask_open_ = false,
+         transparent_ = false;
     bool message_is_error_ = false;
     double frame_ms_ = 0.0;
     Uint64 last_tick_ = 0;

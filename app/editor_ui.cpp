@@ -27,6 +27,10 @@ static const char kHelp[] = "drag the head         move it\n"
                             "g                     drawn strands, guides, both\n"
                             "k                     keep the camera in the style\n"
                             "p, F12                screenshot\n"
+                            "ctrl-z                undo\n"
+                            "ctrl-shift-z, ctrl-y  redo\n"
+                            "c, held               as saved\n"
+                            "u                     what was done, to go back to\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
@@ -57,7 +61,33 @@ void Editor::draw_ui()
         ImGui::End();
     }
     draw_status();
+    if (show_history_)
+        draw_history();
     draw_dialogs();
+}
+
+// All that was done, the newest last; what was undone is grey.
+void Editor::draw_history()
+{
+    const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
+    ImGui::SetNextWindowPos(right_top, ImGuiCond_Appearing, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(0.8f);
+    if (ImGui::Begin("what was done", &show_history_))
+        for (size_t i = 0; i < history_.edits.size(); ++i)
+        {
+            ImGui::PushID(int(i));
+            const bool undone = i > history_.now;
+            if (undone)
+                ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+            const bool chosen = ImGui::Selectable(history_.edits[i].what.c_str(), i == history_.now);
+            if (undone)
+                ImGui::PopStyleColor();
+            ImGui::PopID();
+            if (chosen)
+                go_back(i);
+        }
+    ImGui::End();
 }
 
 void Editor::draw_tools()
@@ -90,6 +120,11 @@ void Editor::draw_tools()
     ImGui::SameLine();
     if (ImGui::Button("Step"))
         paused_ = step_once_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Undo"))
+        undo_last();
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("ctrl-z; redo: ctrl-shift-z; all that was done: u");
     ImGui::SameLine();
     if (ImGui::Button("Reset hair"))
         reset_hair();
@@ -169,6 +204,8 @@ void Editor::draw_status()
     ImGui::Begin("figures", nullptr, plain);
     ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3),
                 paused_ ? ", paused" : "");
+    if (comparing_)
+        ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.4f, 1.0f), "as saved");
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
     ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
                 100.0 * health_.stretch_mean);

@@ -116,7 +116,9 @@ void Simulation::drape()
 {
     if (style_.params.solver_kind != 0)
         return;
-    HairParams thick = style_.params;
+    HairParams own = style_.params;
+    own.solver_courant = std::max(own.solver_courant, 1.0f); // where hair rests does not hang on the substeps
+    HairParams thick = own;
     thick.forces_drag = std::max(thick.forces_drag, 15.0f); // near critical for the slowest swing of 0.2 m
     thick.forces_friction *= 0.5f;
     constexpr int kLookEvery = 16, kMost = 320;                   // steps
@@ -125,7 +127,7 @@ void Simulation::drape()
     {
         if (again && style_.params.bending_hold == 0.0f)
             break;
-        for (const HairParams& params : {thick, style_.params})
+        for (const HairParams& params : {thick, own})
         {
             solver_->set_params(params);
             solver_->fastest();
@@ -145,6 +147,7 @@ void Simulation::drape()
         groom.rest_multiplier = solver_->multipliers();
         solver_->set_groom(groom);
     }
+    solver_->set_params(style_.params);
     solver_->take_times();
 }
 

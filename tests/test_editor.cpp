@@ -1,5 +1,6 @@
 // The editor in a real window: mouse and keys come from the X server, as a person's would.
 #include "app/editor.h"
+#include "sim/source.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -155,6 +157,68 @@ TEST_F(EditorWindow, a_slider_moved_by_the_mouse_changes_the_hair_and_the_file_w
     EXPECT_EQ(saved.rfind("# mine\n[strand]\nlength = 0.", 0), 0u) << saved;
     EXPECT_NE(saved.find(" # short\n"), saved.npos) << "the author's comments stay: " << saved;
     EXPECT_EQ(load_hairstyle("style.toml").params.strand_length, editor->style().params.strand_length);
+}
+
+TEST_F(EditorWindow, a_drag_on_a_slider_is_one_edit_that_can_be_taken_back_and_done_again)
+{
+    const HairParams first = editor->style().params;
+    const auto same = [&](const HairParams& params)
+    { return memcmp(&editor->style().params, &params, sizeof params) == 0; };
+    for (const char* path : {"strand.length", "root.lift"})
+    {
+        const WidgetPlace place = editor->panel().places.at(path);
+        const double y = 0.5 * (place.top + place.bottom), width = place.right - place.left;
+        drag(place.left + 0.3 * width, y, place.left + 0.7 * width, y);
+        release();
+    }
+    const HairParams last = editor->style().params;
+    EXPECT_NE(last.root_lift, first.root_lift);
+    EXPECT_EQ(editor->history().edits.size(), 3u);
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key ctrl+z");
+    EXPECT_TRUE(until([&] { return editor->style().params.root_lift == first.root_lift; }));
+    EXPECT_EQ(editor->style().params.strand_length, last.strand_length);
+    xdotool("key ctrl+z");
+    EXPECT_TRUE(until([&] { return same(first); }));
+    EXPECT_FALSE(editor->unsaved());
+    EXPECT_FLOAT_EQ(editor->simulation().solver().groom().longest, first.strand_length);
+    xdotool("key ctrl+z"); // there is nothing before
+    frames(3);
+    EXPECT_TRUE(same(first));
+    xdotool("key ctrl+shift+z");
+    xdotool("key ctrl+y");
+    EXPECT_TRUE(until([&] { return same(last); }));
+    EXPECT_TRUE(editor->unsaved());
+
+    // Opening another file is an edit too.
+    xdotool("key ctrl+s");
+    EXPECT_TRUE(until([&] { return !editor->unsaved(); }));
+    const fs::path here = editor->style().file;
+    editor->open(data_folder() / "hairstyles" / "brush.toml");
+    frames(3);
+    EXPECT_EQ(editor->style().name(), "brush");
+    xdotool("key ctrl+z");
+    EXPECT_TRUE(until([&] { return editor->style().file == here && same(last); }));
+    EXPECT_FALSE(editor->unsaved());
+}
+
+TEST_F(EditorWindow, while_c_is_held_the_hair_is_as_it_was_saved)
+{
+    const float saved = editor->style().params.strand_length;
+    const WidgetPlace place = editor->panel().places.at("strand.length");
+    const double y = 0.5 * (place.top + place.bottom), width = place.right - place.left;
+    drag(place.left + 0.3 * width, y, place.left + 0.7 * width, y);
+    release();
+    const float edited = editor->style().params.strand_length;
+    ASSERT_NE(edited, saved);
+    const auto shown = [&] { return editor->simulation().solver().groom().longest; };
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("keydown c");
+    EXPECT_TRUE(until([&] { return shown() == saved; }));
+    EXPECT_EQ(editor->style().params.strand_length, edited);
+    xdotool("keyup c");
+    EXPECT_TRUE(until([&] { return shown() == edited; }));
+    EXPECT_TRUE(editor->unsaved());
 }
 
 TEST_F(EditorWindow, a_screenshot_key_writes_a_picture_of_the_view)
