@@ -109,7 +109,7 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
             drawn = false;
             ++failed;
             fill(page, x, y, at.cell_width, at.cell_height, kNothing);
-            write_centered(page, line_of("could not be drawn", at.letters, at.cell_width), x, at.cell_width,
+            write_centered(page, line_of("no picture", at.letters, at.cell_width), x, at.cell_width,
                            y + (at.cell_height - at.letters) / 2, kFailed);
         }
         write_centered(page, line_of(labels[i], at.letters, at.cell_width), x, at.cell_width,
