@@ -2,10 +2,12 @@
 
 #include "app/advise/advise.h"
 #include "app/editor.h"
+#include "app/film.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
 #include "app/report.h"
-#include "app/shot.h"
+#include "app/sequence.h"
+#include "app/sheet.h"
 #include "app/stress/stress.h"
 #include "sim/error.h"
 #include "sim/source.h"
@@ -62,9 +64,12 @@ static int run_save(const Options& options)
     return 0;
 }
 
-static int run_shot(const Options& options, ShotOptions shot, const std::string& size)
+static int run_shot(const Options& options, const ShotOptions& shot, const SequenceOptions& sequence)
 {
-    parse_size(size, shot);
+    if (sequence.wanted())
+        return shoot_sequence(options, shot, sequence);
+    if (!film_format(options.output).empty())
+        throw fail("-o {}: a film is of many pictures; say --frames FIRST:LAST or --turntable VIEWS", options.output);
     save_png(options.output, take_shot(options, shot));
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
@@ -92,16 +97,20 @@ int run_command(int argc, char** argv)
     std::string size = "1280x720";
     std::vector<std::string> styles;
 
+    const auto with_sets = [&](CLI::App* command)
+    {
+        command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
+            ->allow_extra_args(false);
+        command->add_option("--tolerance", options.tolerance,
+                            "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
+    };
     const auto common = [&](CLI::App* command, bool style_needed)
     {
         CLI::Option* style = command->add_option("STYLE", options.style, "Hairstyle file, or the name of a preset");
         if (style_needed) // an unset variable of the shell is no wish for the default
             style->required()->check([](const std::string& name)
                                      { return name.empty() ? std::string("a style without a name") : std::string(); });
-        command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
-            ->allow_extra_args(false);
-        command->add_option("--tolerance", options.tolerance,
-                            "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
+        with_sets(command);
         return command;
     };
     const auto with_device = [&](CLI::App* command)
@@ -112,16 +121,39 @@ int run_command(int argc, char** argv)
     CLI::App* edit_command = with_device(common(app.add_subcommand("edit", "Open the editor (the default)"), false));
 
     CLI::App* shot_command = with_device(common(app.add_subcommand("shot", "Draw a picture without a window"), true));
-    shot_command->add_option("-o,--output", options.output, "PNG to write")->required();
+    shot_command->add_option("-o,--output", options.output, "PNG to write; of many pictures also .mp4, .webm or .gif")
+        ->required();
     shot_command->add_option("--size", size, "WIDTHxHEIGHT in pixels, up to 8192 each")->capture_default_str();
-    shot_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
-        ->capture_default_str();
-    shot_command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
-    shot_command->add_option("--camera", shot.camera,
-                             "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
-    shot_command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")
-        ->capture_default_str();
+    const auto with_picture = [&](CLI::App* command)
+    {
+        command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
+            ->capture_default_str();
+        command->add_option("--camera", shot.camera, "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
+        command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")->capture_default_str();
+        return command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
+    };
+    CLI::Option* shot_time = with_picture(shot_command);
     shot_command->add_flag("--transparent", shot.transparent, "No backdrop: alpha instead");
+    SequenceOptions sequence;
+    shot_command
+        ->add_option("--frames", sequence.frames, "FIRST:LAST of the motion, both too: numbered pictures, X_%04d.png")
+        ->excludes(shot_time);
+    shot_command->add_option("--fps", sequence.fps, "Frames a second of --frames and of films")->capture_default_str();
+    shot_command
+        ->add_option("--turntable", sequence.turntable, "Views in a turn about the head, one a picture or a frame")
+        ->check(CLI::PositiveNumber);
+
+    CLI::App* sheet_command =
+        with_device(app.add_subcommand("sheet", "Draw many styles into one picture, each with its name"));
+    SheetOptions sheeted;
+    std::string cell_size = "360x360";
+    sheet_command->add_option("STYLE", sheeted.styles, "Hairstyle files, or names of presets")->required();
+    with_sets(sheet_command);
+    sheet_command->add_option("-o,--output", options.output, "PNG to write")->required();
+    sheet_command->add_option("--size", cell_size, "WIDTHxHEIGHT of each style's picture, pixels")
+        ->capture_default_str();
+    sheet_command->add_option("--columns", sheeted.columns, "Styles in a row");
+    with_picture(sheet_command);
 
     CLI::App* report_command =
         with_device(common(app.add_subcommand("report", "Play a motion and print health"), true));
@@ -212,8 +244,11 @@ int run_command(int argc, char** argv)
         app.exit(e);
         return 2;
     }
+    parse_size(sheet_command->parsed() ? cell_size : size, shot);
     if (shot_command->parsed())
-        return run_shot(options, shot, size);
+        return run_shot(options, shot, sequence);
+    if (sheet_command->parsed())
+        return sheet(options, shot, sheeted);
     if (report_command->parsed())
         return report(options, wanted);
     if (lab_command->parsed())

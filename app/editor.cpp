@@ -1,5 +1,7 @@
 #include "app/editor.h"
 
+#include "app/lettering.h"
+#include "app/sequence.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
@@ -70,13 +72,8 @@ Editor::Editor(const Options& options)
     ImGui::GetStyle().FrameRounding = 3.0f;
     ImGui::GetStyle().WindowBorderSize = 0.0f;
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 1.0f; // nothing is drawn behind the panel
-    for (const char* font :
-         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
-        if (std::filesystem::exists(font))
-        {
-            ImGui::GetIO().Fonts->AddFontFromFileTTF(font, 14.0f);
-            break;
-        }
+    if (const std::filesystem::path font = font_file(); !font.empty())
+        ImGui::GetIO().Fonts->AddFontFromFileTTF(font.c_str(), 14.0f);
     ImGui_ImplSDL2_InitForOpenGL(window_.sdl(), window_.context());
     ImGui_ImplOpenGL3_Init("#version 150");
     renderer_ = std::make_unique<Renderer>(data_folder() / "shaders");
@@ -211,10 +208,7 @@ bool Editor::save(const std::filesystem::path& file)
 
 std::filesystem::path Editor::screenshot()
 {
-    std::filesystem::path file;
-    std::error_code error;
-    for (int n = 1; file.empty() || std::filesystem::exists(file, error); ++n)
-        file = fmt::format("{}-{:03}.png", style_.name(), n);
+    const std::filesystem::path file = unused_name(screenshot_name_.empty() ? style_.name() : screenshot_name_);
     int width = view_width_, height = view_height_;
     std::sscanf(screenshot_size_.c_str(), "%dx%d", &width, &height);
     guarded(

@@ -98,7 +98,7 @@ class Editor
     std::string measured_, measured_motion_; // the choice, and the motion, that time_error_ is of
     double time_error_ = 0.0;                // of the substeps, as a fraction of the length
     std::string message_, save_as_;
-    std::string screenshot_size_ = "as shown";
+    std::string screenshot_size_ = "as shown", screenshot_name_; // the style's if empty; a number follows
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
     int redraw_ = 1; // frames that are still to be drawn though time may stand still

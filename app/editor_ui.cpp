@@ -158,7 +158,14 @@ void Editor::draw_tools()
         ImGui::EndCombo();
     }
     ImGui::SameLine();
-    ImGui::Checkbox("transparent", &transparent_);
+    ImGui::SetNextItemWidth(90.0f);
+    ImGui::InputTextWithHint("##picture", style_.name().c_str(), &screenshot_name_);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("name of the picture, a path if you like; a number and .png follow");
+    ImGui::SameLine();
+    ImGui::Checkbox("alpha", &transparent_);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("no backdrop");
 }
 
 // What a tolerance has chosen: in a line, and in full when that is opened.

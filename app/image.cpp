@@ -7,6 +7,8 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
+#include <unistd.h>
+
 namespace coif
 {
 
@@ -32,6 +34,16 @@ Image load_png(const std::filesystem::path& file)
     image.pixels.assign(pixels, pixels + size_t(4) * size_t(image.width) * size_t(image.height));
     stbi_image_free(pixels);
     return image;
+}
+
+void check_folder(const std::filesystem::path& file)
+{
+    std::error_code error;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (std::filesystem::is_directory(file, error))
+        throw fail("{}: is a folder; name a file in it", file.string());
+    if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK) != 0)
+        throw fail("{}: cannot be written; is its folder there, and writable?", file.string());
 }
 
 Image shrunk(const Image& image, int by)

@@ -16,6 +16,9 @@ struct Image
 void save_png(const std::filesystem::path& file, const Image& image);
 Image load_png(const std::filesystem::path& file);
 
+// Throws Error unless a file of that name could be written; for asking before long work.
+void check_folder(const std::filesystem::path& file);
+
 // Each pixel the mean of a block of `by` x `by`; what does not fill a block is left out.
 Image shrunk(const Image& image, int by);
 

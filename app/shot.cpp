@@ -46,36 +46,57 @@ static Camera parse_camera(const std::string& text, Camera camera)
     return camera;
 }
 
-Image take_shot(const Options& options, const ShotOptions& shot)
+void check_shot(const Options& options, const ShotOptions& shot)
 {
-    if (!(options.seconds >= 0.0 && options.seconds <= 3600.0))
-        throw fail("--time {}: expected seconds from 0 to 3600", options.seconds);
+    if (!(options.seconds >= 0.0 && options.seconds <= kLongestShot))
+        throw fail("--time {}: expected seconds from 0 to {}", options.seconds, kLongestShot);
     if (shot.samples < 1 || shot.samples > 1024)
         throw fail("--samples {}: expected 1 to 1024", shot.samples);
-    const Hairstyle style = load_style(options);
-    Camera camera = camera_of(style.params);
     if (!shot.camera.empty())
-        camera = parse_camera(shot.camera, camera);
+        parse_camera(shot.camera, {});
+}
+
+Studio::Studio(const Device& device, const Hairstyle& style, const Motion& motion, const ShotOptions& shot)
+    : shot_(shot), simulation_(device, style), renderer_(data_folder() / "shaders")
+{
+    simulation_.play(motion);
+}
+
+void Studio::play_to(double seconds)
+{
+    const long steps = std::lround(seconds / simulation_.step_seconds());
+    while (simulation_.steps() < steps)
+    {
+        simulation_.step(simulation_.hand());
+        if (simulation_.steps() % 16 == 1)
+            simulation_.solver().take_times(); // lets the queue's uploads go
+    }
+}
+
+Image Studio::picture(double turn)
+{
+    simulation_.solver().draw();
+    Camera camera = camera_of(simulation_.params());
+    if (!shot_.camera.empty())
+        camera = parse_camera(shot_.camera, camera);
+    camera.yaw += turn;
+    camera.target += simulation_.jumped();
+    FrameInput frame = frame_input(simulation_, camera);
+    frame.samples = shot_.samples;
+    frame.transparent = shot_.transparent;
+    return renderer_.picture(frame, shot_.width, shot_.height);
+}
+
+Image take_shot(const Options& options, const ShotOptions& shot)
+{
+    check_shot(options, shot);
+    const Hairstyle style = load_style(options);
     const Motion motion = find_motion(options.motion);
     const Device device = open_device(options);
-    Simulation simulation(device, style);
-    simulation.play(motion);
-    const long steps = std::lround(options.seconds / simulation.step_seconds());
-    for (long i = 0; i < steps; ++i)
-    {
-        simulation.step(simulation.hand());
-        if (i % 16 == 0)
-            simulation.solver().take_times(); // lets the queue's uploads go
-    }
-    simulation.solver().draw();
-
     const Window window(16, 16, Window::HIDDEN);
-    Renderer renderer(data_folder() / "shaders");
-    camera.target += simulation.jumped();
-    FrameInput frame = frame_input(simulation, camera);
-    frame.samples = shot.samples;
-    frame.transparent = shot.transparent;
-    return renderer.picture(frame, shot.width, shot.height);
+    Studio studio(device, style, motion, shot);
+    studio.play_to(options.seconds);
+    return studio.picture();
 }
 
 } // namespace coif

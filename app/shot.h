@@ -5,6 +5,8 @@
 namespace coif
 {
 
+constexpr double kLongestShot = 3600.0; // s of a motion
+
 struct ShotOptions
 {
     int width = 1280, height = 720;
@@ -13,10 +15,31 @@ struct ShotOptions
     bool transparent = false;
 };
 
-// Plays the motion for the given time without drawing, then draws once: the same input gives the same picture.
-Image take_shot(const Options& options, const ShotOptions& shot);
-
 // "1280x720" -> width and height. Throws Error.
 void parse_size(const std::string& text, ShotOptions& shot);
+
+// Throws Error for options that no picture can be taken with, before anything is opened for it.
+void check_shot(const Options& options, const ShotOptions& shot);
+
+// A style that plays a motion, and pictures of it as time goes on: equal styles, times and options give equal pictures,
+// however many were taken before. Needs a current GL context; the device must outlive it.
+class Studio
+{
+  public:
+    Studio(const Device& device, const Hairstyle& style, const Motion& motion, const ShotOptions& shot);
+
+    // Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
+    void play_to(double seconds);
+    // Taken from `turn` (rad) further round the camera's target than the options say.
+    Image picture(double turn = 0.0);
+
+  private:
+    ShotOptions shot_;
+    Simulation simulation_;
+    Renderer renderer_;
+};
+
+// Plays the motion for the given time without drawing, then draws once: the same input gives the same picture.
+Image take_shot(const Options& options, const ShotOptions& shot);
 
 } // namespace coif

@@ -1,67 +1,10 @@
-// The program as a person or a script calls it: what it prints where, what it writes, and how it ends.
-#include "app/image.h"
-#include "sim/hairstyle.h"
+// What each command prints where, what it writes, and how it ends.
+#include "tests/commands.h"
 
-#include <gtest/gtest.h>
-
-#include <sys/wait.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 using namespace coif;
-namespace fs = std::filesystem;
-
-namespace
-{
-struct Result
-{
-    int status = -1;
-    std::string out, err;
-};
-
-class Commands : public testing::Test
-{
-  protected:
-    void SetUp() override
-    {
-        folder = fs::temp_directory_path() / ("coif_commands_" + std::to_string(getpid()));
-        fs::create_directories(folder);
-        write("small.toml", "[interpolation]\nstrands = 200\n[grid]\nresolution = 16\n");
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
-    std::string contents(const std::string& name) const
-    {
-        std::ifstream in(folder / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-    // Runs coif in the folder, without a display.
-    Result coif(const std::string& arguments, const std::string& display = "-u DISPLAY") const
-    {
-        const std::string command = "cd '" + folder.string() + "' && env -u WAYLAND_DISPLAY " + display +
-                                    " '" COIF_BUILD_FOLDER "/coif' " + arguments + " > out.txt 2> err.txt < /dev/null";
-        Result result;
-        const int status = std::system(command.c_str());
-        result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-        result.out = contents("out.txt");
-        result.err = contents("err.txt");
-        return result;
-    }
-    static double number(const std::string& json, const std::string& key)
-    {
-        const size_t at = json.find("\"" + key + "\": ");
-        return at == json.npos ? NAN : std::atof(json.c_str() + at + key.size() + 4);
-    }
-
-    fs::path folder;
-};
-} // namespace
+using namespace coif::test;
 
 TEST_F(Commands, two_shots_are_the_same_to_the_byte)
 {

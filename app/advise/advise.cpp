@@ -174,7 +174,7 @@ int advise(const Options& options, const AdviseOptions& wanted)
     const Window window(16, 16, Window::HIDDEN);
     Renderer renderer(data_folder() / "shaders");
     Trial trial{device, renderer, motion, wanted.seconds, 0.01 * double(tolerance)};
-    const ProgressLine line;
+    const Progress line;
     trial.progress = [&](const std::string& doing) { line.say(doing); };
     const Advice advice = advise_on(trial, chosen(device, authored));
     line.clear();

@@ -3,6 +3,8 @@
 #include "app/measure/plots.h"
 #include "app/progress.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -29,7 +31,7 @@ int measure(const Options& options, const MeasureOptions& wanted)
     make_folder(folder);
     const Device device = open_device(options);
     Measuring with{device, wanted.quick};
-    const ProgressLine line;
+    const Progress line;
 
     std::vector<Row> rows;
     for (size_t i = 0; i < all.size(); ++i)

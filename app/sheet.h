@@ -1,0 +1,38 @@
+#pragma once
+#include "app/shot.h"
+
+#include <optional>
+
+namespace coif
+{
+
+struct SheetOptions
+{
+    std::vector<std::string> styles; // files, or names of presets
+    std::optional<int> columns;      // unsaid: as many as fill the last row best
+};
+
+// Where the cells of a contact sheet lie, row by row, in pixels. Under each picture is room for its name.
+struct SheetLayout
+{
+    int columns, rows;
+    int cell_width, cell_height; // of a picture
+    int gap, letters;            // between cells and about all; height of a name's letters
+    int width, height;           // of the sheet
+
+    int label_height() const { return 2 * letters; }
+    int x(int cell) const { return gap + cell % columns * (cell_width + gap); }
+    int y(int cell) const { return gap + cell / columns * (cell_height + label_height() + gap); }
+};
+
+// Throws Error for fewer than one column and for sheets too large to hold.
+SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int cell_height);
+
+// What stands under the cells: the styles' names, or, where two have the same, all of how they were called.
+std::vector<std::string> sheet_labels(const std::vector<std::string>& styles);
+
+// A contact sheet of styles into options.output, `cell` each. A style that fails is told, and its cell says so. Returns
+// the exit status: 1 if one failed. Throws Error when all did, or for what is wrong with all.
+int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted);
+
+} // namespace coif
