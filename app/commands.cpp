@@ -26,8 +26,8 @@ static int run_check(const std::vector<std::string>& styles)
             if (name.empty())
                 throw Error("check: a style without a name");
             Hairstyle style = load_hairstyle(find_style(name));
-            load_assets(style);
-            fmt::print("{}: good\n", name);
+            const std::string doubt = doubtful_size(style.params, load_assets(style));
+            fmt::print("{}: good{}\n", name, doubt.empty() ? "" : ", but " + doubt);
         }
         catch (const Error& e)
         {

@@ -345,6 +345,8 @@ void Editor::draw_dialogs()
             }
         ImGui::Separator();
         ImGui::SetNextItemWidth(480.0f);
+        if (ImGui::IsWindowAppearing())
+            ImGui::SetKeyboardFocusHere();
         const bool enter = ImGui::InputTextWithHint(
             "##file", "or a path", &save_as_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
         if ((ImGui::Button("Open") || enter) && !save_as_.empty())

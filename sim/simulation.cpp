@@ -55,6 +55,29 @@ Assets load_assets(const Hairstyle& style)
     return assets;
 }
 
+std::string doubtful_size(const HairParams& params, const Assets& assets)
+{
+    const double scalp = double(assets.scalp.extent) * double(params.head_scale);
+    if (scalp > 2.0 || scalp < 0.02)
+        return fmt::format("the scalp is {:.3g} m across: coif takes the OBJ's numbers for metres", scalp);
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const glm::vec3& p : assets.head.positions)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    if (assets.head.positions.empty())
+        return {};
+    const glm::vec3 size = (high - low) * params.head_mesh_scale * params.head_scale;
+    const double head = double(std::max({size.x, size.y, size.z}));
+    // A head alone is little larger than its scalp, a whole body ten times.
+    if (head > 0.5 * scalp && head < 20.0 * scalp)
+        return {};
+    return fmt::format("the head's mesh is {:.3g} m in size, the scalp {:.2g} m: head.mesh_scale is 0.01 for a mesh in "
+                       "centimetres, 0.001 for one in millimetres",
+                       head, scalp);
+}
+
 PlacedGrid head_grid(const Hairstyle& style, Assets& assets)
 {
     const HairParams& p = style.params;

@@ -29,6 +29,10 @@ Assets load_assets(const Hairstyle& style);
 // spheres or there is no mesh. Computed or read from the cache if these assets have none yet.
 PlacedGrid head_grid(const Hairstyle& style, Assets& assets);
 
+// What a scalp or a head of such a size may come of, as "the scalp is 180 m across"; empty where both are plausible.
+// Meshes do not say their unit, so it is no error.
+std::string doubtful_size(const HairParams& params, const Assets& assets);
+
 // The head's own spheres, scaled and offset as the style says, unless its grid stands for it; followed by the style's
 // colliders.
 std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets, bool grid);

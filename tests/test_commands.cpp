@@ -67,6 +67,19 @@ TEST_F(Commands, check_tells_good_from_broken_with_its_status)
     EXPECT_NE(mixed.out.find("'missing.toml' is neither a file nor one of coif's presets"), std::string::npos);
 }
 
+TEST_F(Commands, check_doubts_a_mesh_that_is_in_another_unit)
+{
+    for (const char* scale : {"100", "1", "0.01", "0.001"})
+    {
+        write("unit.toml", std::string("[head]\nmesh_scale = ") + scale + "\n");
+        const Result result = coif("check unit.toml");
+        EXPECT_EQ(result.status, 0) << result.out;
+        EXPECT_EQ(result.out == "unit.toml: good\n", std::string(scale) == "1") << result.out;
+    }
+    write("unit.toml", "[head]\nmesh_scale = 100\n");
+    EXPECT_NE(coif("check unit.toml").out.find("good, but the head's mesh is"), std::string::npos);
+}
+
 TEST_F(Commands, save_changes_what_is_asked_and_keeps_the_rest)
 {
     write("mine.toml", "# mine\n[strand]\nlength = 0.3 # long\n");

@@ -72,7 +72,7 @@ std::string table_of(const Advice& advice)
     add(true, [](Verdict) { return true; });
     lines.push_back(
         {"guides", fmt::format("{} now", advice.guides), percent(advice.guide_error), "", "", "", "",
-         advice.guide_error > advice.tolerance ? "lacks: predicted; a finer scalp has more" : "enough: predicted"});
+         advice.guide_error > advice.tolerance ? "lacks: predicted; interpolation.refine gives more" : "enough: predicted"});
     return text + aligned(lines, {0, 1, 7});
 }
 
