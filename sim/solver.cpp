@@ -121,6 +121,7 @@ void Solver::set_groom(const Groom& groom)
 void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
     changed_ |= colliders != colliders_;
+    rest_clear_.reset();
     if (colliders.size() > colliders_.size())
         for (const char* name : {"colliders", "bodies"})
             buffers_[name] = allocate(device_, colliders.size() * sizeof(Capsule), "the colliders");
@@ -130,6 +131,7 @@ void Solver::set_colliders(const std::vector<Collider>& colliders)
 void Solver::set_rest_shape()
 {
     rest_ = make_rest_shape(params_, groom_);
+    rest_clear_.reset();
     write(device_, buffer("rest_position"), rest_.position);
     write(device_, buffer("rest_bend"), rest_.bend);
     write(device_, buffer("root_normal"), rest_.normal);
@@ -153,6 +155,7 @@ void Solver::set_body(const PlacedGrid& body)
         buffers_ = fresh;
     }
     changed_ |= body != body_;
+    rest_clear_.reset();
     body_ = body;
 }
 

@@ -4,6 +4,7 @@
 #include "sim/step_info.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,6 +77,7 @@ class Solver
     void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
     void set_rest_shape();
+    bool stands_rigid(const StepInfo& info);
     void look_for_rest();
     void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
@@ -88,7 +90,8 @@ class Solver
     Groom groom_;
     Pose head_;
     RestShape rest_;
-    bool changed_ = true; // anything but time since the last step
+    std::optional<bool> rest_clear_; // of the bodies, none of which moves against the head; none: not looked at yet
+    bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in
     double watched_ = 0.0; // s that `moved` is the greatest of

@@ -2,6 +2,8 @@
 #include "sim/solver.h"
 
 #include "sim/error.h"
+#include "sim/health.h"
+#include "sim/material.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -124,15 +126,36 @@ void Solver::simulate(const StepInfo& info)
                    size_t(groom_.blocks) * LANES);
 }
 
+// Hair that weight and wind hardly bend goes with the head, if it stands clear of that and there is nothing else to
+// meet.
+bool Solver::stands_rigid(const StepInfo& info)
+{
+    constexpr double kStiff = 0.1, kWithin = 0.001; // droop number; m
+    const double load = std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w));
+    if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff)
+        return false;
+    if (!rest_clear_)
+    {
+        rest_clear_ = std::all_of(colliders_.begin(), colliders_.end(), [](const Collider& c) { return c.on_head; });
+        const std::vector<Capsule> bodies = placed_colliders();
+        for (int s = 0; s < groom_.guides && *rest_clear_; ++s)
+            for (int k = 2; k < groom_.nodes && *rest_clear_; ++k)
+            {
+                const glm::dvec3 rest = vector_at(rest_.position.data(), s, k, groom_.nodes);
+                rest_clear_ = depth_in(bodies, *this, glm::vec3(head_.turn * rest)) < kWithin;
+            }
+    }
+    return *rest_clear_;
+}
+
 void Solver::simulate_direct(const StepInfo& info)
 {
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
-    // And stiffer than this, it does not bend, but for a body that it meets.
     const bool contact = !colliders_.empty() || body_.grid;
-    if (params_.bending_modulus == 0.0f && params_.bending_droop < 0.1f && !contact)
+    if (stands_rigid(info))
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
     launch_strands("simulate_direct",
                    fmt::format("{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
