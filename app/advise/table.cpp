@@ -70,9 +70,9 @@ std::string table_of(const Advice& advice)
     lines.push_back({});
     lines.push_back({"it lacks", "with it, or with more", "motion", "picture", "costs", "", "a picture", ""});
     add(true, [](Verdict) { return true; });
-    lines.push_back(
-        {"guides", fmt::format("{} now", advice.guides), percent(advice.guide_error), "", "", "", "",
-         advice.guide_error > advice.tolerance ? "lacks: predicted; interpolation.refine gives more" : "enough: predicted"});
+    lines.push_back({"guides", fmt::format("{} now", advice.guides), percent(advice.guide_error), "", "", "", "",
+                     advice.guide_error > advice.tolerance ? "lacks: predicted; interpolation.refine gives more"
+                                                           : "enough: predicted"});
     return text + aligned(lines, {0, 1, 7});
 }
 
