@@ -85,6 +85,7 @@ Hairstyle random_style(int seed, int number, const std::string& scalp)
     style.params.strand_nodes = nodes;
     style.params.grid_resolution = resolution;
     style.params.interpolation_strands = draw.below(65);
+    style.params.interpolation_refine = 0; // thousands of guides would take hours, and tell no more of a strand
     // Coupled by the grid, or by none of its passes, as often as not.
     if (draw.once_in(2))
         style.params.forces_repulsion = style.params.look_self_shadow = 0.0f;
