@@ -192,6 +192,8 @@ int most_refinements(const Scalp& scalp)
 
 Scalp refined(const Scalp& scalp, int times)
 {
+    if (times == 0) // as every slider's regrowth asks for
+        return scalp;
     if (times > most_refinements(scalp))
         throw fail(
             "interpolation.refine: {} would give more than the {} guides that coif takes; this scalp can take {}",
