@@ -1,6 +1,7 @@
 #include "app/report.h"
 
 #include "app/json.h"
+#include "app/progress.h"
 #include "sim/error.h"
 #include "sim/health.h"
 #include "sim/median.h"
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <unistd.h>
 
 namespace coif
 {
@@ -52,7 +52,7 @@ int report(const Options& options, const ReportOptions& wanted)
     simulation.play(motion);
 
     const long frames = std::max(1L, std::lround(options.seconds * wanted.fps));
-    const bool progress = isatty(STDERR_FILENO) && frames > 30;
+    const Progress progress;
     Health worst;
     std::vector<int> seen = simulation.solver().resets();
     std::vector<Bad> bad;
@@ -87,11 +87,10 @@ int report(const Options& options, const ReportOptions& wanted)
         stretch_sum += now.stretch_mean;
         csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f, simulation.time(), now.stretch_max,
                            now.stretch_mean, 1e3 * now.penetration_max, 1e3 * now.drawn_penetration_max, ms);
-        if (progress && f % 10 == 0)
-            fmt::print(stderr, "\rframe {} of {} ", f, frames);
+        if (f % 10 == 9)
+            progress.say(fmt::format("frame {} of {}", f + 1, frames));
     }
-    if (progress)
-        fmt::print(stderr, "\r\033[K");
+    progress.clear();
     // Measured on this motion, where a tolerance was asked for.
     const Quality& quality = simulation.quality();
     const double time_error = quality.rungs.empty()

@@ -2,6 +2,7 @@
 
 #include "app/csv.h"
 #include "app/json.h"
+#include "app/progress.h"
 #include "app/stress/cases.h"
 #include "sim/error.h"
 
@@ -9,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <unistd.h>
 
 namespace coif
 {
@@ -108,7 +108,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
     ground.soak = wanted.soak > 0.0 ? wanted.soak : wanted.quick ? 10.0 : 600.0;
     make_folder(ground.folder);
 
-    const bool progress = isatty(STDERR_FILENO);
+    const Progress progress;
     fmt::print("{}, seed {}\n", ground.device.name, ground.seed);
     fmt::print("{:<15} {:<6} {:^17} {:^17} {:>7}\n", "", "", "direct: %, mm", "pbd: %, mm", "s");
     std::vector<Row> rows;
@@ -116,10 +116,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
     for (const stress::Case* c : all)
     {
         ground.say = [&](const std::string& words)
-        {
-            if (progress)
-                fmt::print(stderr, "\r\033[K[{}/{}] {}: {}", rows.size() + 1, all.size(), c->name, words);
-        };
+        { progress.say(fmt::format("[{}/{}] {}: {}", rows.size() + 1, all.size(), c->name, words)); };
         ground.say("");
         const auto started = now();
         stress::Outcome outcome;
@@ -133,8 +130,7 @@ int run_stress(const Options& options, const StressOptions& wanted)
         }
         for (const std::string& trespass : find_trespasses(ground.device))
             outcome.faults.push_back("outside of a buffer: " + trespass);
-        if (progress)
-            fmt::print(stderr, "\r\033[K");
+        progress.clear();
         rows.push_back({c, std::move(outcome), since(started)});
         print(rows.back());
     }
