@@ -120,8 +120,11 @@ void Solver::set_groom(const Groom& groom)
 
 void Solver::set_colliders(const std::vector<Collider>& colliders)
 {
-    changed_ |= colliders != colliders_;
-    rest_clear_.reset();
+    if (colliders != colliders_)
+    {
+        changed_ = true;
+        rest_clear_.reset();
+    }
     if (colliders.size() > colliders_.size())
         for (const char* name : {"colliders", "bodies"})
             buffers_[name] = allocate(device_, colliders.size() * sizeof(Capsule), "the colliders");
@@ -154,8 +157,11 @@ void Solver::set_body(const PlacedGrid& body)
         write(device_, fresh["body_way"], ways);
         buffers_ = fresh;
     }
-    changed_ |= body != body_;
-    rest_clear_.reset();
+    if (body != body_)
+    {
+        changed_ = true;
+        rest_clear_.reset();
+    }
     body_ = body;
 }
 
