@@ -22,7 +22,7 @@ static inline real kept_weight(global const float* position, const int* heaviest
 }
 
 kernel void interpolate_multi(global const float* position, global const DrawnStrand* strands,
-                              global float4* drawn_position, global const float* depth,
+                              global const StrandLook* looks, global float4* drawn_position, global const float* depth,
                               global const float* body_distance, global const float4* body_way,
                               constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
 {
@@ -64,5 +64,5 @@ kernel void interpolate_multi(global const float* position, global const DrawnSt
     const Points shift = points(root.x - node[1].x, root.y - node[1].y, root.z - node[1].z);
     for (int k = 0; k < NODES; ++k)
         node[k] = points(node[k].x + shift.x, node[k].y + shift.y, node[k].z + shift.z);
-    finish_strands(node, strand, strands, drawn_position, depth, body_distance, body_way, colliders, params, info);
+    finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info);
 }

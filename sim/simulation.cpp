@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/rest_shape.h"
+#include "sim/shaping.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ Assets load_assets(const Hairstyle& style)
 {
     Assets assets;
     // A fault in what the style names is told with the place where the style names it.
-    const auto placed = [&](const char* key, auto&& action)
+    const auto placed = [&](const std::string& key, auto&& action)
     {
         try
         {
@@ -46,6 +47,11 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+    for (const ParamInfo& info : param_table())
+        if (info.kind == Kind::LIST)
+            for (size_t i = 0; i < with_list(style.host, info, [](const auto& list) { return list.size(); }); ++i)
+                placed(fmt::format("{}[{}]", info.group, i),
+                       [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
     if (!style.host.head_spheres.empty())
@@ -126,7 +132,7 @@ Simulation::Simulation(const Device& device, Hairstyle style) : device_(device),
 {
     assets_ = load_assets(authored_);
     style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
-    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
+    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp, style_.host), hand_);
     set_bodies(style_);
     drape();
 }
@@ -207,14 +213,16 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
             if (!quality_.rungs.empty())
                 copy_value(style_, style, *find_param(kept));
     bool regrow = reload;
+    const bool varied = varies(style.host); // then each root has its own of what may vary
     for (const ParamInfo& info : param_table())
-        regrow |= info.effect != Effect::LIVE && info.effect != Effect::VIEW && !same_value(style, style_, info);
+        regrow |= !same_value(style, style_, info) && ((info.effect != Effect::LIVE && info.effect != Effect::VIEW) ||
+                                                       (varied && info.scope == Scope::STRAND));
     const bool waves = waves_are_shape(style.params);
     regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
     bool refall = false;
     if (regrow)
     {
-        Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp);
+        Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp, style.host);
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
