@@ -101,6 +101,7 @@ int run_command(int argc, char** argv)
     {
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
+        command->add_option("--variant", options.variant, "The [variant.NAME] of the style that is to be on");
         command->add_option("--tolerance", options.tolerance,
                             "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
     };

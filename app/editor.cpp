@@ -101,9 +101,7 @@ void Editor::apply()
     comparing_ = false;
     guarded([&] { simulation_->set_style(style_); });
     style_ = simulation_->style(); // the last good one, if that failed
-    unsaved_ = false;
-    for (const ParamInfo& info : param_table())
-        unsaved_ |= !same_value(style_, saved_, info);
+    unsaved_ = !same_style(style_, saved_);
     SDL_SetWindowTitle(window_.sdl(), fmt::format("{}{} - coif", style_.name(), unsaved_ ? " *" : "").c_str());
     redraw_ = kRedraw;
 }

@@ -405,6 +405,9 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
         ground.sides.push_back(ground.varied ? sides_at(shaping, at_vertex(scalp, g)) : Sides{});
     }
 
+    if (host.groom_rest.shapes)
+        take_shapes(groom, *host.groom_rest.shapes, scalp, p.head_scale);
+
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
     const int multi = p.interpolation_strands - single;
     groom.drawn.reserve(size_t(p.interpolation_strands));

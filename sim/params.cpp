@@ -20,6 +20,7 @@ static constexpr const char* bare(const char* name) { return *name == '"' ? "" :
     {#group, #name, Kind::kind, Scope::scope, Effect::effect, ReadBy::read_by, offsetof(HairParams, group##_##name),   \
      lo, hi, unit, labels, help},
 #define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
+#define COIF_OFFSET_SHAPE(group, name) offsetof(HostParams, group##_##name)
 #define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
 #define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
     {#group, bare(#name), Kind::kind, Scope::scope, Effect::effect, ReadBy::ALL, COIF_OFFSET_##kind(group, name),      \
@@ -37,7 +38,7 @@ std::span<const ParamInfo> param_table() { return kParams; }
 
 const char* kind_name(Kind kind)
 {
-    static const char* const names[] = {"number", "whole number", "choice", "three numbers", "colour", "text", "list"};
+    static const char* const names[] = {"number", "whole number", "choice", "three numbers", "colour", "text", "shape", "list"};
     return names[int(kind)];
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "kernels/shared.h"
 #include "sim/lists.h"
+#include "sim/strand_shapes.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,6 +16,7 @@ namespace coif
 {
 
 #define COIF_MEMBER_TEXT(group, name, value) std::string group##_##name = value;
+#define COIF_MEMBER_SHAPE(group, name, value) StoredShape group##_##name;
 #define COIF_MEMBER_LIST(group, name, value) std::vector<group##_entry> group##s;
 #define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)
 #define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_MEMBER_##kind(group, name, value)
@@ -35,6 +37,7 @@ enum class Kind
     VECTOR,
     COLOR,
     TEXT,
+    SHAPE,
     LIST
 };
 enum class Scope
@@ -67,19 +70,20 @@ struct ParamInfo
     Scope scope;
     Effect effect;
     ReadBy read_by;
-    size_t offset; // into HairParams, or into HostParams for TEXT and LIST
+    size_t offset; // into HairParams, or into HostParams for TEXT, SHAPE and LIST
     float min, max;
     const char* unit;
     const char* labels; // of a CHOICE, separated by |
     const char* help;
 
     std::string path() const { return *name ? std::string(group) + "." + name : group; }
-    bool on_host() const { return kind == Kind::TEXT || kind == Kind::LIST; }
+    bool on_host() const { return kind == Kind::TEXT || kind == Kind::SHAPE || kind == Kind::LIST; }
     int components() const { return kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
 };
 
 // What `action` gives for the list of `host` that a LIST stands for.
 #define COIF_WITH_TEXT(list)
+#define COIF_WITH_SHAPE(list)
 #define COIF_WITH_LIST(list)                                                                                           \
     if (info.group == std::string_view(#list))                                                                         \
         return action(host.list##s);

@@ -47,6 +47,8 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+    if (const auto& rest = style.host.groom_rest.shapes; rest && size_t(rest->strands()) != assets.scalp.positions.size())
+        placed("groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
             for (size_t i = 0; i < with_list(style.host, info, [](const auto& list) { return list.size(); }); ++i)
@@ -149,7 +151,7 @@ void Simulation::set_bodies(const Hairstyle& style)
 // What hair holds of that shape (bending.hold) it finds again with its own weight on it.
 void Simulation::drape()
 {
-    if (style_.params.solver_kind != 0)
+    if (style_.params.solver_kind != 0 || style_.host.groom_rest.shapes) // which is where it rests
         return;
     HairParams own = style_.params;
     own.solver_courant = std::max(own.solver_courant, 1.0f); // where hair rests does not hang on the substeps
@@ -226,8 +228,10 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
-        refall = groom.guides != old.guides || groom.nodes != old.nodes || (held && style.params.solver_kind == 0);
-        if (!refall)
+        const bool stored = style.host.groom_rest.shapes || style_.host.groom_rest.shapes;
+        refall = groom.guides != old.guides || groom.nodes != old.nodes ||
+                 (held && style.params.solver_kind == 0 && !stored);
+        if (!refall && groom.rest_position.empty())
         {
             groom.rest_position = old.rest_position;
             groom.rest_multiplier = old.rest_multiplier;
@@ -329,6 +333,15 @@ void Simulation::settle(double seconds)
             solver_->take_times(); // lets the queue's uploads go
     }
     motion_ = motion;
+}
+
+StrandShapes Simulation::shapes() const
+{
+    const Mapped position = solver_->guide_positions();
+    StrandShapes shapes = shapes_of(in_head_frame(position.as<float>(), solver_->groom(), solver_->head().turn),
+                                    solver_->groom(), style_.params.head_scale);
+    shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes)); // a refined scalp's own come first
+    return shapes;
 }
 
 void Simulation::reset() { solver_->reset(solver_->head()); }
