@@ -2,8 +2,12 @@
 #include "app/history.h"
 #include "app/options.h"
 #include "app/panel.h"
+#include "app/recovery.h"
 #include "app/renderer.h"
+#include "app/settings.h"
+#include "app/thumbnails.h"
 #include "app/viewport.h"
+#include "app/watch.h"
 #include "sim/health.h"
 
 #include <SDL.h>
@@ -18,6 +22,19 @@ namespace coif
 
 // Opens the editor's window on a hairstyle and runs until it is closed. Returns the exit status.
 int edit(const Options& options);
+
+// The window of presets.
+struct Browser
+{
+    bool shown = false;
+    std::filesystem::path folder, selected;
+    std::vector<std::filesystem::path> files;
+    double listed = -1e9; // s, of the window's clock
+    std::string filter;
+    std::string asked, name;                                          // what a name is asked for, and the name
+    std::map<std::filesystem::path, std::pair<int, GLuint>> pictures; // version and texture
+    std::map<std::string, WidgetPlace> places;                        // of the last frame
+};
 
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
 // drive it the same way as edit() does.
@@ -45,6 +62,10 @@ class Editor
     double frame_ms() const { return frame_ms_; }
     const std::string& message() const { return message_; }
     const History& history() const { return history_; }
+    const std::vector<Recovery>& recoveries() const { return recoveries_; }
+    const WidgetPlace& recover_button() const { return recover_button_; } // the last that was drawn
+    const Browser& browser() const { return browser_; }
+    const Hairstyle* theirs() const { return theirs_ ? &*theirs_ : nullptr; }
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
@@ -53,7 +74,11 @@ class Editor
     struct Close
     {
     };
-    using Intent = std::variant<std::monostate, Close, std::filesystem::path>; // what waits for unsaved changes
+    struct Recover
+    {
+        size_t which; // of recoveries_
+    };
+    using Intent = std::variant<std::monostate, Close, std::filesystem::path, Recover>; // waits for unsaved changes
 
     static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
 
@@ -69,6 +94,22 @@ class Editor
     void draw_history();
     void draw_quality(float top);
     void take(const std::filesystem::path& file); // opens without asking
+    void show(const Hairstyle& fresh, const Hairstyle& saved);
+    void recover(size_t which);
+    void look_at_files();
+    void reload_style();
+    void take_theirs(const Hairstyle& theirs);
+    std::vector<std::filesystem::path> watched_files();
+    void note_unsaved(); // and keep it in case of a crash
+    void say(const std::string& message, bool error = false);
+    void draw_files();
+    void draw_browser();
+    void draw_browser_dialog();
+    void browse(bool on);
+    void change_preset(); // as browser_.asked says
+    bool draw_thumbnail(const std::filesystem::path& file);
+    void take_settings();
+    void keep_settings();
     void reset_hair();
     void note_resets();
     void keep_view();
@@ -86,6 +127,20 @@ class Editor
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
+    Autosave autosave_;
+    std::vector<Recovery> recoveries_; // that are still offered
+    Watch watch_;
+    double next_look_ = 0.0;                             // s, of the window's clock
+    std::map<std::string, std::filesystem::path> named_; // files that the style names, where they were last found
+    std::optional<Hairstyle> theirs_; // the file as another program has written it, where there are unsaved changes
+    bool gone_ = false;               // the style's file has vanished
+    WidgetPlace recover_button_ = {};
+    Browser browser_;
+    std::unique_ptr<Thumbnails> thumbnails_; // once the browser has been open
+    std::string device_wish_;
+    Settings settings_; // as they were last read or kept
+    double next_keep_ = 0.0;
+    bool settings_told_ = false;
     Camera camera_;
     PanelState panel_;
     Grab held_;

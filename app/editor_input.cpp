@@ -53,6 +53,9 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_c:
         compare(true);
         break;
+    case SDLK_b:
+        browse(!browser_.shown);
+        break;
     case SDLK_u:
         show_history_ = !show_history_;
         break;

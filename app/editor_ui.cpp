@@ -34,6 +34,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
+                            "b                     browse presets\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -57,12 +58,17 @@ void Editor::draw_ui()
         ImGui::BeginChild("parameters");
         if (draw_params_panel(style_, panel_))
             apply();
+        if (!panel_.done.empty())
+            note_edit(history_, style_, saved_, std::exchange(panel_.done, {}));
         ImGui::EndChild();
         ImGui::End();
     }
     draw_status();
     if (show_history_)
         draw_history();
+    if (browser_.shown)
+        draw_browser();
+    draw_files();
     draw_dialogs();
 }
 
@@ -70,7 +76,7 @@ void Editor::draw_ui()
 void Editor::draw_history()
 {
     const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
-    ImGui::SetNextWindowPos(right_top, ImGuiCond_Appearing, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowPos(right_top, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
     ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.8f);
     if (ImGui::Begin("what was done", &show_history_))
@@ -92,7 +98,7 @@ void Editor::draw_history()
 
 void Editor::draw_tools()
 {
-    ImGui::SetNextItemWidth(150.0f);
+    ImGui::SetNextItemWidth(115.0f);
     if (ImGui::BeginCombo("##open", style_.name().c_str()))
     {
         for (const std::filesystem::path& file : preset_files())
@@ -102,6 +108,11 @@ void Editor::draw_tools()
     }
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("open a preset; or drop a file onto the window");
+    ImGui::SameLine();
+    if (ImGui::Button("Browse"))
+        browse(!browser_.shown);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("b: presets with their pictures");
     ImGui::SameLine();
     if (ImGui::Button(unsaved_ ? "Save *" : "Save") && !style_.file.empty())
         save(style_.file);

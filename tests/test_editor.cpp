@@ -30,6 +30,8 @@ class EditorWindow : public testing::Test
         fs::create_directories(folder);
         fs::current_path(folder); // screenshots go to the caller's folder
         std::ofstream("style.toml") << "# mine\n[strand]\nlength = 0.2 # short\n[interpolation]\nstrands = 300\n";
+        for (const auto& [variable, name] : {std::pair("XDG_STATE_HOME", "state"), {"XDG_CONFIG_HOME", "config"}})
+            setenv(variable, (folder / name).c_str(), 1);
         // The window is to open under its own driver, not the headless one of other tests.
         unsetenv("SDL_VIDEODRIVER");
         SDL_SetHint(SDL_HINT_VIDEODRIVER, nullptr);
