@@ -51,6 +51,8 @@ void Editor::guarded(const std::function<void()>& action)
 void Editor::reset_hair()
 {
     guarded([&] { simulation_->reset(); });
+    if (beside_.simulation)
+        guarded([&] { beside_.simulation->reset(); });
     bad_strand_.clear();
 }
 
@@ -143,6 +145,8 @@ void Editor::show(const Hairstyle& fresh, const Hairstyle& saved)
     camera_.target += simulation_->solver().head().origin;
     jumped_ = simulation_->jumped();
     message_.clear();
+    if (beside_.simulation)
+        split(true);
 }
 
 void Editor::go_back(size_t edit)
@@ -257,6 +261,8 @@ void Editor::play(const std::string& motion)
         [&]
         {
             simulation_->play(find_motion(motion));
+            if (beside_.simulation)
+                beside_.simulation->play(find_motion(motion));
             motion_ = motion;
             paused_ = false;
         });
@@ -285,6 +291,8 @@ void Editor::advance(double seconds)
         simulation_->step(hand_);
     else if (!paused_)
         stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
+    if (beside_.simulation)
+        follow();
     if (played && !simulation_->playing())
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
@@ -302,6 +310,8 @@ void Editor::note_resets()
     const std::vector<Reset> found = find_resets(simulation_->solver(), resets_seen_);
     if (found.empty())
         return;
+    for (const Reset& reset : found)
+        healed_ += reset.times;
     bad_strand_ = fmt::format("strand {}{} reset in step {}: {}", found.back().strand,
                               found.size() > 1 ? fmt::format(" and {} more", found.size() - 1) : "",
                               simulation_->steps(), likely_cause(found.back(), simulation_->solver().info()));
@@ -350,8 +360,16 @@ bool Editor::frame()
             if (frames_ % 8 == 1)
                 health_ = measure_health(simulation_->solver(), style_.params, false);
             note_resets();
-            renderer_->show(frame_input(*simulation_, camera_), view_width_ * pixels_wide / std::max(width, 1),
-                            pixels_high);
+            const int wide = picture_width() * pixels_wide / std::max(width, 1);
+            const FrameInput input = frame_input(*simulation_, camera_);
+            renderer_->show(input, wide, pixels_high);
+            legend_.title = input.colors.title;
+            legend_.readings = input.colors.readings;
+            if (!beside_.simulation)
+                return;
+            beside_.simulation->solver().draw();
+            beside_.simulation->solver().take_times();
+            beside_.renderer->show(frame_input(*beside_.simulation, camera_), wide, pixels_high, wide);
         });
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -12,6 +12,7 @@
 
 #include <SDL.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,6 +37,19 @@ struct Browser
     std::map<std::string, WidgetPlace> places;                        // of the last frame
 };
 
+// Another style beside the one that is edited, or that it is on the way to.
+struct Beside
+{
+    bool shown = false;                        // its window
+    std::optional<Hairstyle> style;            // B
+    std::optional<Hairstyle> from;             // A, where a morph began
+    float at = 0.0f;                           // of the way from A to B
+    std::unique_ptr<Simulation> simulation;    // B alive, side by side with A
+    std::unique_ptr<Renderer> renderer;        // a renderer keeps what it has sent to the driver
+    double began = 0.0;                        // s of A's time when B's was 0
+    std::map<std::string, WidgetPlace> places; // of the last frame
+};
+
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
 // drive it the same way as edit() does.
 class Editor
@@ -52,6 +66,7 @@ class Editor
     bool save(const std::filesystem::path& file);
     std::filesystem::path screenshot(); // returns the file written, or an empty path
     void play(const std::string& motion);
+    void put_beside(const std::filesystem::path& file); // empty: the style as it was saved
 
     const Simulation& simulation() const { return *simulation_; }
     const Hairstyle& style() const { return style_; }
@@ -63,7 +78,9 @@ class Editor
     const std::string& message() const { return message_; }
     const History& history() const { return history_; }
     const std::vector<Recovery>& recoveries() const { return recoveries_; }
-    const WidgetPlace& recover_button() const { return recover_button_; } // the last that was drawn
+    const std::map<std::string, WidgetPlace>& file_places() const { return file_places_; } // buttons, as last drawn
+    const StrandColors& legend() const { return legend_; }
+    const Beside& beside() const { return beside_; }
     const Browser& browser() const { return browser_; }
     const Hairstyle* theirs() const { return theirs_ ? &*theirs_ : nullptr; }
     const std::string& bad_strand() const { return bad_strand_; }
@@ -103,6 +120,12 @@ class Editor
     void note_unsaved(); // and keep it in case of a crash
     void say(const std::string& message, bool error = false);
     void draw_files();
+    void draw_beside();
+    void split(bool on);
+    void follow(); // B goes on to A's time
+    void morph(float at);
+    int picture_width() const { return beside_.simulation ? std::max(1, view_width_ / 2) : view_width_; }
+    void draw_legend();
     void draw_browser();
     void draw_browser_dialog();
     void browse(bool on);
@@ -134,8 +157,10 @@ class Editor
     std::map<std::string, std::filesystem::path> named_; // files that the style names, where they were last found
     std::optional<Hairstyle> theirs_; // the file as another program has written it, where there are unsaved changes
     bool gone_ = false;               // the style's file has vanished
-    WidgetPlace recover_button_ = {};
+    std::map<std::string, WidgetPlace> file_places_;
     Browser browser_;
+    Beside beside_;
+    StrandColors legend_;                    // without its values
     std::unique_ptr<Thumbnails> thumbnails_; // once the browser has been open
     std::string device_wish_;
     Settings settings_; // as they were last read or kept
@@ -144,10 +169,12 @@ class Editor
     Camera camera_;
     PanelState panel_;
     Grab held_;
-    Pose hand_; // where the mouse has brought the head
+    int held_left_ = 0; // pixel that the picture which is held begins at
+    Pose hand_;         // where the mouse has brought the head
     PassTimes pass_ms_;
     Health health_;
     std::vector<int> resets_seen_;           // of each guide
+    long healed_ = 0;                        // strands, each time
     std::string bad_strand_;                 // the last that was reset: which, when and why
     std::string motion_ = "shake";           // that is played, or was last
     std::string measured_, measured_motion_; // the choice, and the motion, that time_error_ is of

@@ -125,8 +125,12 @@ void Editor::look_at_files()
               {
                   if (kernels)
                       simulation_->solver().reload_kernels();
+                  if (kernels && beside_.simulation)
+                      beside_.simulation->solver().reload_kernels();
                   if (shaders)
                       renderer_->reload_shaders();
+                  if (shaders && beside_.renderer)
+                      beside_.renderer->reload_shaders();
               });
     if (const std::string trouble = autosave_.trouble(); !trouble.empty() && message_.find(trouble) == message_.npos)
         say("unsaved work cannot be kept in case of a crash, so save often: " + trouble, true);
@@ -229,6 +233,12 @@ void Editor::draw_files()
     const ImGuiWindowFlags plain = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
+    file_places_.clear();
+    const auto place = [&](const char* button)
+    {
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        file_places_[button] = {low.x, low.y, high.x, high.y};
+    };
     if (!recoveries_.empty())
     {
         at_top(0.3f * float(view_height_));
@@ -253,8 +263,7 @@ void Editor::draw_files()
                 ImGui::TableNextColumn();
                 if (ImGui::Button("Recover"))
                     taken = i;
-                recover_button_ = {ImGui::GetItemRectMin().x, ImGui::GetItemRectMin().y, ImGui::GetItemRectMax().x,
-                                   ImGui::GetItemRectMax().y};
+                place("Recover");
                 ImGui::TableNextColumn();
                 if (ImGui::Button("Discard"))
                     dropped = i;
@@ -280,7 +289,9 @@ void Editor::draw_files()
         ImGui::Begin("changed on disk", nullptr, plain);
         ImGui::Text("Another program has changed %s, and here it has unsaved changes.", style_.file.filename().c_str());
         ImGui::TextDisabled("%s", difference(saved_, *theirs_).c_str());
-        if (ImGui::Button("Take the file's"))
+        const bool take = ImGui::Button("Take the file's");
+        place("Take the file's");
+        if (take)
             guarded([&] { take_theirs(*theirs_); });
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("what is on screen can be had again by undo");

@@ -35,6 +35,8 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
                             "b                     browse presets\n"
+                            "a                     another style beside, morph\n"
+                            "v                     colours: hair, stretch, density, kind\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -68,6 +70,10 @@ void Editor::draw_ui()
         draw_history();
     if (browser_.shown)
         draw_browser();
+    if (beside_.shown)
+        draw_beside();
+    if (!legend_.readings.empty())
+        draw_legend();
     draw_files();
     draw_dialogs();
 }
@@ -142,6 +148,11 @@ void Editor::draw_tools()
     ImGui::SameLine();
     if (ImGui::Button("Keep camera"))
         keep_view();
+    ImGui::SameLine();
+    if (ImGui::Button("A/B"))
+        beside_.shown = !beside_.shown;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("a: another style beside this one, or on the way to it");
     int key = 0;
     for (const std::string& motion : motion_names())
     {
@@ -220,6 +231,9 @@ void Editor::draw_status()
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
     ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
                 100.0 * health_.stretch_mean);
+    ImGui::Text("%.1f mm deep in head or colliders at worst", 1e3 * health_.penetration_max);
+    if (healed_ > 0)
+        ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "strands healed %ld times", healed_);
     if (!bad_strand_.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
     if (simulation_->solver().asleep())

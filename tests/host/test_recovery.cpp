@@ -211,7 +211,7 @@ TEST(Recovery, kill_minus_9_at_any_moment_loses_little_and_never_the_file)
     ASSERT_NE(edits, MAP_FAILED);
     std::mt19937 random(7);
     int found_some = 0;
-    for (int round = 0; round < 40; ++round)
+    for (int round = 0; round < 20; ++round)
     {
         *edits = 0;
         const pid_t child = fork();
@@ -223,7 +223,7 @@ TEST(Recovery, kill_minus_9_at_any_moment_loses_little_and_never_the_file)
         // What it had done this long before the end must be there: the 10 ms between two keepings, and what a busy
         // machine takes to come round to its thread.
         const int before = *edits;
-        std::this_thread::sleep_for(500ms);
+        std::this_thread::sleep_for(250ms);
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         const Hairstyle saved = load_hairstyle(style.file); // whole: it parses
@@ -236,7 +236,7 @@ TEST(Recovery, kill_minus_9_at_any_moment_loses_little_and_never_the_file)
         found_some += kept.params.interpolation_seed > 0;
         discard(found[0]);
     }
-    EXPECT_EQ(found_some, 40);
+    EXPECT_EQ(found_some, 20);
     EXPECT_TRUE(find_recoveries(folder).empty());
     munmap(edits, 2 * sizeof(int));
 }
