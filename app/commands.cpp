@@ -5,6 +5,7 @@
 #include "app/film.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
+#include "app/morph.h"
 #include "app/report.h"
 #include "app/sequence.h"
 #include "app/sheet.h"
@@ -58,6 +59,19 @@ static int run_keys()
 static int run_save(const Options& options)
 {
     Hairstyle style = load_style(options);
+    load_assets(style); // refuses what could not be opened again
+    save_hairstyle(style, options.output);
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
+static int run_morph(const Options& options, const std::string& to, double at)
+{
+    if (!(at >= 0.0 && at <= 1.0))
+        throw fail("--at {}: expected 0 (the first style) to 1 (the second)", at);
+    Options second = options;
+    second.style = to;
+    Hairstyle style = morphed(load_style(options), load_style(second), at);
     load_assets(style); // refuses what could not be opened again
     save_hairstyle(style, options.output);
     fmt::print(stderr, "wrote {}\n", options.output);
@@ -194,6 +208,16 @@ int run_command(int argc, char** argv)
     CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
     save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
 
+    CLI::App* morph_command = app.add_subcommand("morph", "Make the style that lies between two");
+    std::string morph_to;
+    double morph_at = 0.5;
+    morph_command->add_option("A", options.style, "Hairstyle file, or the name of a preset")->required();
+    morph_command->add_option("B", morph_to, "The other")->required();
+    morph_command->add_option("--at", morph_at, "0 is A, 1 is B; choices and files switch at 0.5")
+        ->capture_default_str();
+    with_sets(morph_command);
+    morph_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
+
     LabOptions hung;
     CLI::App* lab_command =
         with_device(app.add_subcommand("lab", "Move one strand as its root is told, for comparing with references"));
@@ -266,6 +290,8 @@ int run_command(int argc, char** argv)
         return run_keys();
     if (save_command->parsed())
         return run_save(options);
+    if (morph_command->parsed())
+        return run_morph(options, morph_to, morph_at);
     (void)edit_command;
     return run_edit(options);
 }

@@ -158,6 +158,24 @@ void Renderer::upload_looks(const std::vector<StrandLook>& looks)
                  GL_FLOAT, rows.data());
 }
 
+// One value a drawn node, or, where the hair has its own colours, none at all.
+void Renderer::upload_colors(const FrameInput& frame)
+{
+    constexpr GLuint kValue = 4; // as ShaderProgram binds it
+    glBindVertexArray(strand_array_);
+    if (frame.colors.value.empty())
+    {
+        glDisableVertexAttribArray(kValue);
+        glVertexAttrib1f(kValue, -1.0f);
+        return;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, color_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.colors.value.size() * sizeof(float)), frame.colors.value.data(),
+                 GL_STREAM_DRAW);
+    glEnableVertexAttribArray(kValue);
+    glVertexAttribPointer(kValue, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
 void Renderer::upload(const FrameInput& frame)
 {
     const HairParams params = device_params(frame.params);
@@ -191,6 +209,7 @@ void Renderer::upload(const FrameInput& frame)
         glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_frames.bytes()), frame.drawn_frames.as<float>(),
                      GL_STREAM_DRAW);
+        upload_colors(frame);
         upload_order(frame, glm::vec3(frame.camera.position() - frame.simulation->solver().head().origin),
                      glm::vec3(glm::normalize(frame.camera.target - frame.camera.position())));
     }

@@ -18,12 +18,14 @@ layout(triangle_strip, max_vertices = 62) out;
 #include "look.glsl"
 
 uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
+uniform sampler1D ramp; // colours that tell a value, app/strand_colors.h
 
 in NodeData {
     vec4 normal;
     float light;
     float along;
     int strand;
+    float value;
 } node[4];
 
 // 6 components and gl_Position's four, times 62 vertices: well below the 1024 that GL 3.2 promises.
@@ -111,7 +113,11 @@ void main()
         float half_drawn = 0.5 * max(width, 1.0) + 0.5;
 
         vec3 hair = mix(look.root_color, look.tip_color, along) * brightness;
-        ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, mix(node[1].light, node[2].light, t));
+        float light = mix(node[1].light, node[2].light, t);
+        if (node[1].value < 0.0)
+            ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, light);
+        else // lit little, so that a colour is the legend's
+            ribbon.color = texture(ramp, mix(node[1].value, node[2].value, t)).rgb * mix(0.65, 1.0, light);
         for (float s = -1.0; s <= 1.0; s += 2.0)
         {
             ribbon.across = vec3(s * half_drawn, half_drawn, look.opacity * min(width, 1.0));

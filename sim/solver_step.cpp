@@ -40,6 +40,16 @@ Kernel& Solver::kernel(const std::string& file, const std::string& extra)
     return found->second;
 }
 
+void Solver::reload_kernels()
+{
+    std::map<std::string, Kernel> fresh;
+    for (const auto& [key, old] : kernels_) // by file and options
+        fresh[key] = load_kernel(device_, key.substr(0, key.find(' ')), key.substr(key.find(' ') + 1));
+    device_.queue.finish();
+    kernels_ = std::move(fresh);
+    changed_ = true;
+}
+
 void Solver::launch(const std::string& pass, const std::string& extra, size_t items, size_t group)
 {
     if (items == 0)

@@ -107,6 +107,37 @@ TEST_F(Panel, what_differs_from_the_default_has_a_button_that_takes_it_back)
     EXPECT_FALSE(style.places.contains("root.lift"));
 }
 
+TEST_F(Panel, groups_fold_and_what_is_looked_for_is_shown_all_the_same)
+{
+    frame();
+    click("group strand");
+    frame();
+    EXPECT_EQ(state.folded, std::set<std::string>{"strand"});
+    EXPECT_FALSE(state.places.contains("strand.length"));
+    EXPECT_TRUE(state.places.contains("root.lift"));
+    snprintf(state.filter, sizeof state.filter, "LENGTH OF A STRAND"); // what its help says
+    frame();
+    EXPECT_TRUE(state.places.contains("strand.length"));
+    EXPECT_FALSE(state.places.contains("root.lift"));
+    state.filter[0] = 0;
+    frame();
+    EXPECT_FALSE(state.places.contains("strand.length")) << "it is folded still";
+    click("group strand");
+    frame();
+    EXPECT_TRUE(state.folded.empty());
+}
+
+TEST_F(Panel, dice_are_thrown_within_the_locks)
+{
+    const Hairstyle first = style;
+    state.locked = {"strand.length"};
+    EXPECT_TRUE(click("randomise"));
+    EXPECT_EQ(state.done, "randomise, seed 1");
+    EXPECT_EQ(state.seed, 2);
+    EXPECT_EQ(style.params.strand_length, first.params.strand_length);
+    EXPECT_NE(style.params.root_lift, first.params.root_lift);
+}
+
 TEST_F(Panel, the_filter_leaves_what_contains_it)
 {
     snprintf(state.filter, sizeof state.filter, "wave.");
