@@ -173,6 +173,13 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    const int nobody = 0;
+    glGenBuffers(1, &leader_buffer_);
+    glBindBuffer(GL_TEXTURE_BUFFER, leader_buffer_);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof nobody, &nobody, GL_STATIC_DRAW);
+    glGenTextures(1, &leader_texture_);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32I, leader_buffer_);
 }
 
 Renderer::~Renderer()
@@ -185,11 +192,11 @@ Renderer::~Renderer()
         glDeleteTextures(1, &target->texture);
     }
     for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, index_buffer_, mesh_buffer_,
-                          mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_})
+                          mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_})
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture : {depth_texture_, wave_texture_})
+    for (GLuint texture : {depth_texture_, wave_texture_, leader_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -277,6 +284,10 @@ void Renderer::draw_strands(const FrameInput& frame)
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_1D, wave_texture_);
     glUniform1i(program.uniform("wave"), 0);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glUniform1i(program.uniform("leaders"), 1);
+    glActiveTexture(GL_TEXTURE0);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

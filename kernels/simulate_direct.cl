@@ -114,7 +114,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         fmin(per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length),
              (real)(info->bend_most));
     float weight[NODES];
-    element_weights(params->bending_attenuation, weight);
+    element_weights(params->bending_attenuation, params->bending_along, weight);
     Factor factor;
     factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass);
 #endif

@@ -1,5 +1,7 @@
 #include "sim/groom.h"
 
+#include "sim/clumps.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -21,7 +23,10 @@ enum Channel
     kWeightB,
     kCut,
     kStrandSeed,
-    kTurn // and upwards: one pair of channels for each try
+    kTurn, // and upwards: one pair of channels for each try
+    kCurlPhase = 100,
+    kCurlVariation,
+    kCurlHand
 };
 
 static uint32_t pcg(uint32_t state)
@@ -83,7 +88,7 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
         if (weights[k] > weights[nearest])
             nearest = k;
     for (int k = 0; k < 3; ++k)
-        if (glm::dot(directions[k], directions[nearest]) < 0.85f)
+        if (glm::dot(directions[k], directions[nearest]) < kSameWay)
             weights[k] = 0.0f;
     return weights / (weights.x + weights.y + weights.z);
 }
@@ -198,26 +203,48 @@ static void grow_single(Groom& groom, const HairParams& p, const Scalp& scalp, i
     }
 }
 
-// Nodes of a strand whose own shape is waves about a straight axis: equally far apart along the curve, which is longer
-// than the axis. Returns the length of its segments, m.
-static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
-                          std::vector<glm::dvec3>& nodes)
+// A guide's curl, if it is one of the strand's own shape.
+struct Curl
+{
+    double radius = 0.0, turns = 0.0; // m; turns a metre, left-handed ones below zero
+    double phase = 0.0;               // turns
+};
+
+static Curl curl_of(const HairParams& p, int guide)
+{
+    if (!curls_are_shape(p))
+        return {};
+    const int seed = p.interpolation_seed;
+    const double less = double(p.curl_variation) * double(random01(seed, guide, kCurlVariation));
+    const bool left = p.curl_hand == 2 ? random01(seed, guide, kCurlHand) < 0.5f : p.curl_hand == 1;
+    return {double(p.curl_radius) * (1.0 - less), (left ? -1.0 : 1.0) / (double(p.curl_pitch) * (1.0 - 0.5 * less)),
+            double(p.curl_phase) * double(random01(seed, guide, kCurlPhase))};
+}
+
+// Nodes of a strand whose own shape is waves and a curl about a straight axis: equally far apart along the curve, which
+// is longer than the axis. Returns the length of its segments, m.
+static double shape_form(const HairParams& p, const Curl& curl, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
+                         std::vector<glm::dvec3>& nodes)
 {
     const glm::dvec3 binormal = glm::cross(along, normal);
+    const double waves = waves_are_shape(p) ? 1.0 : 0.0;
     const auto at = [&](double s) // s: along the axis, m
     {
-        const double share = s / double(p.strand_length), turns = 2.0 * std::numbers::pi * s;
+        const double share = s / double(p.strand_length), turn = 2.0 * std::numbers::pi;
         // As kernels/strand_curve.h lets waves set in; said again, because that speaks float only, as GLSL does.
         const auto onset = [&](double begin)
         {
             const double u = std::clamp(4.0 * (share - begin), 0.0, 1.0);
             return u * u * (3.0 - 2.0 * u);
         };
+        const double angle = turn * (curl.turns * s + curl.phase), radius = curl.radius * onset(p.curl_begin);
+        const double n = waves * double(p.wave_normal_amplitude) * onset(p.wave_normal_begin) *
+                         std::sin(turn * s * double(p.wave_normal_frequency));
+        const double b = waves * double(p.wave_binormal_amplitude) * onset(p.wave_binormal_begin) *
+                         std::cos(turn * s * double(p.wave_binormal_frequency));
         return root + along * s +
-               normal * (double(p.wave_normal_amplitude) * onset(p.wave_normal_begin) *
-                         std::sin(turns * double(p.wave_normal_frequency))) +
-               binormal * (double(p.wave_binormal_amplitude) * onset(p.wave_binormal_begin) *
-                           std::cos(turns * double(p.wave_binormal_frequency)));
+               profile_at(p.wave_along, share) *
+                   (normal * (n + radius * std::cos(angle)) + binormal * (b + radius * std::sin(angle)));
     };
     const int links = p.strand_nodes - 2, fine = 64 * links;
     std::vector<glm::dvec3> curve;
@@ -240,6 +267,11 @@ static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along
         nodes.push_back(glm::mix(curve[piece], curve[piece + 1], std::clamp(within, 0.0, 1.0)));
     }
     return segment;
+}
+
+static bool curls_differ(const HairParams& p)
+{
+    return curls_are_shape(p) && (p.curl_phase > 0.0f || p.curl_variation > 0.0f || p.curl_hand == 2);
 }
 
 Groom grow(const HairParams& p, const Scalp& authored)
@@ -271,8 +303,8 @@ Groom grow(const HairParams& p, const Scalp& authored)
     groom.root_direction.resize(size_t(groom.blocks) * 3 * LANES);
     groom.segment_length.resize(size_t(groom.blocks) * LANES);
     groom.hold = p.bending_hold;
-    const bool waves = waves_are_shape(p);
-    if (waves)
+    const bool formed = waves_are_shape(p) || curls_are_shape(p);
+    if (formed)
         groom.natural_position.resize(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
@@ -285,15 +317,15 @@ Groom grow(const HairParams& p, const Scalp& authored)
         }
         // All segments of a strand are equally long; the one under the scalp does not count towards its length.
         groom.segment_length[size_t(s)] = p.strand_length / float(groom.nodes - 2);
-        if (!waves)
+        if (!formed)
             continue;
         const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = directions[g];
         const glm::vec3 outward = scalp.normals[g] - directions[g] * glm::dot(scalp.normals[g], directions[g]);
         const glm::vec3 side = glm::cross(directions[g], glm::vec3(0.0f, 1.0f, 0.0f));
         const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
         std::vector<glm::dvec3> nodes;
-        groom.segment_length[size_t(s)] =
-            float(shape_waves(p, root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
+        groom.segment_length[size_t(s)] = float(shape_form(
+            p, curl_of(p, int(g)), root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
         groom.longest = std::max(groom.longest, groom.segment_length[size_t(s)] * float(groom.nodes - 2));
         for (int k = 0; k < groom.nodes; ++k)
             for (int axis = 0; axis < 3; ++axis)
@@ -312,7 +344,13 @@ Groom grow(const HairParams& p, const Scalp& authored)
             *c *= p.head_scale;
         strand.root.w = 1.0f - p.strand_length_variation * random01(p.interpolation_seed, int(i), kCut);
         strand.seed = int(random01(p.interpolation_seed, int(i), kStrandSeed) * 0x1p24f);
+        strand.leader = int(i);
+        // The mean of two curls that turn in different places is none: each strand follows one guide.
+        if (formed && int(i) < groom.drawn_multi && curls_differ(p))
+            strand.weights = F4(1.0f, 0.0f, 0.0f, 0.0f);
     }
+    if (has_clumps(p))
+        gather_clumps(groom.drawn, p, directions);
     return groom;
 }
 

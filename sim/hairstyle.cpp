@@ -38,12 +38,12 @@ static const char* type_name(const toml::node& node)
     }
 }
 
-static bool read_three(const toml::node& node, double out[3])
+static bool read_numbers(const toml::node& node, size_t count, double* out)
 {
     const toml::array* list = node.as_array();
-    if (!list || list->size() != 3)
+    if (!list || list->size() != count)
         return false;
-    for (size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < count; ++i)
     {
         if (!list->get(i)->is_number())
             return false;
@@ -63,7 +63,7 @@ static bool read_hex_color(const std::string& text, double out[3])
 
 static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
-    double values[3] = {};
+    double values[kMostNumbers] = {};
     const auto wrong = [&](const char* wanted)
     { return fail("{} must be {}, not {}", info.path(), wanted, type_name(node)); };
     switch (info.kind)
@@ -79,12 +79,19 @@ static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node
         values[0] = double(*node.value<int64_t>());
         break;
     case Kind::VECTOR:
-        if (!read_three(node, values))
+        if (!read_numbers(node, 3, values))
             throw wrong("three numbers like [0.0, 1.0, 0.0]");
         break;
     case Kind::COLOR:
-        if (!read_three(node, values) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
+        if (!read_numbers(node, 3, values) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
             throw wrong("a colour like \"#8a5a3c\" or three numbers from 0 to 1");
+        break;
+    case Kind::PROFILE:
+        if (const toml::array* list = node.as_array(); list && list->size() != 4)
+            throw fail("{} must be four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0], not {}", info.path(),
+                       list->size());
+        if (!read_numbers(node, 4, values))
+            throw wrong("four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0]");
         break;
     case Kind::CHOICE:
     {
@@ -126,7 +133,7 @@ static Collider read_collider(const fs::path& file, const toml::node& entry)
         if (key == "center" || key == "to")
         {
             const std::string_view name(key.str());
-            if (!read_three(value, v))
+            if (!read_numbers(value, 3, v))
                 throw at(fmt::format("collider.{} must be three numbers in metres", name));
             for (int i = 0; i < 3; ++i)
                 if (!(std::abs(v[i]) <= 100.0))
@@ -298,7 +305,7 @@ static std::string toml_string(const std::string& text)
 
 std::string value_text(const Hairstyle& style, const ParamInfo& info)
 {
-    float v[3] = {};
+    float v[kMostNumbers] = {};
     if (!info.on_host())
         get_numbers(style.params, info, v);
     switch (info.kind)
@@ -311,6 +318,8 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return toml_string(param_labels(info).at(size_t(v[0])));
     case Kind::VECTOR:
         return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
+    case Kind::PROFILE:
+        return fmt::format("[{}, {}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]), float_text(v[3]));
     case Kind::COLOR:
     {
         int bytes[3];

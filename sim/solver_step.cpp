@@ -132,7 +132,8 @@ bool Solver::stands_rigid(const StepInfo& info)
 {
     constexpr double kStiff = 0.1, kWithin = 0.001; // droop number; m
     const double load = std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w));
-    if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff)
+    if (params_.bending_modulus > 0.0f ||
+        params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff * least_of(params_.bending_along))
         return false;
     if (!rest_clear_)
     {
@@ -153,7 +154,8 @@ void Solver::simulate_direct(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
-    const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
+    const bool bending =
+        params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links * most_of(params_.bending_along);
     const bool contact = !colliders_.empty() || body_.grid;
     if (stands_rigid(info))
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
@@ -260,7 +262,8 @@ void Solver::draw()
                                    int(colliders_.size()), true, body_);
     upload(info);
     const std::string options =
-        fmt::format("{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "");
+        fmt::format("{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
+                    params_.flyaway_share > 0.0f && params_.flyaway_distance > 0.0f ? "-D FLYAWAY " : "");
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
@@ -277,7 +280,9 @@ void Solver::draw()
     }
     launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
-    launch_strands("transport_frames", "", groom_.drawn.size());
+    if (has_clumps(params_))
+        launch_strands("clump", body_.grid ? "-D BODY_GRID " : "", groom_.drawn.size());
+    launch_strands("transport_frames", has_clumps(params_) ? "-D CLUMPS " : "", groom_.drawn.size());
 }
 
 double sum_of(const PassTimes& times)
