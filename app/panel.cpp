@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <numbers>
 
@@ -30,10 +31,64 @@ static float drag_speed(const ParamInfo& info)
     return unit == "m" ? 0.001f : unit == "deg" ? 0.1f : std::min(0.05f, (info.max - info.min) * 0.0005f);
 }
 
+// A curve from root to tip with four points to drag, and its numbers below it to type. A point that the mouse has taken
+// is the mouse's until it lets go, wherever that goes.
+static bool draw_profile(float v[kMostNumbers], const ParamInfo& info, const char* id)
+{
+    constexpr float kRadius = 4.0f; // pixels
+    const float width = ImGui::CalcItemWidth(), height = 3.0f * ImGui::GetFrameHeight();
+    // A wide range has its root drawn, so that the factor 1 does not lie on the floor.
+    const auto height_of = [&](float value)
+    {
+        const float share = (value - info.min) / (info.max - info.min);
+        return info.max > 4.0f ? std::sqrt(share) : share;
+    };
+    const auto value_of = [&](float share)
+    { return info.min + (info.max > 4.0f ? share * share : share) * (info.max - info.min); };
+
+    ImGui::BeginGroup();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float left = corner.x + kRadius, step = (width - 2.0f * kRadius) / 3.0f;
+    const float floor = corner.y + height - kRadius, room = height - 2.0f * kRadius;
+    ImGui::InvisibleButton(id, ImVec2(width, height));
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const int under = std::clamp(int((mouse.x - left) / step + 0.5f), 0, 3);
+    int* taken = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID(id), 0);
+    if (ImGui::IsItemActivated())
+        *taken = under;
+    const bool dragged = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+    bool changed = false;
+    if (dragged)
+    {
+        const float to = value_of(std::clamp((floor - mouse.y) / room, 0.0f, 1.0f));
+        const float rounded = std::clamp(std::round(to * 100.0f) / 100.0f, info.min, info.max);
+        changed = rounded != v[*taken];
+        v[*taken] = rounded;
+    }
+    const auto color = [](ImGuiCol which) { return ImGui::GetColorU32(which); };
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height), color(ImGuiCol_FrameBg),
+                        ImGui::GetStyle().FrameRounding);
+    ImVec2 points[4];
+    for (int i = 0; i < 4; ++i)
+        points[i] = ImVec2(left + float(i) * step, floor - room * height_of(v[i]));
+    draw->AddPolyline(points, 4, color(ImGuiCol_PlotLines), 0, 1.5f);
+    for (int i = 0; i < 4; ++i)
+    {
+        const bool lit = dragged ? i == *taken : hovered && i == under;
+        draw->AddCircleFilled(points[i], kRadius, color(lit ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab));
+    }
+    ImGui::SetNextItemWidth(width);
+    changed |= ImGui::DragFloat4("##numbers", v, (info.max - info.min) * 0.002f, info.min, info.max, "%.2f",
+                                 ImGuiSliderFlags_AlwaysClamp);
+    ImGui::EndGroup();
+    return changed;
+}
+
 static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
 {
     static const Hairstyle defaults;
-    float v[3] = {}, usual[3] = {};
+    float v[kMostNumbers] = {}, usual[kMostNumbers] = {};
     get_numbers(style.params, info, v);
     get_numbers(defaults.params, info, usual);
     bool changed = false;
@@ -69,6 +124,9 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
     case Kind::VECTOR:
         changed = ImGui::DragFloat3(id, v, drag_speed(info), info.min, info.max, "%.3g", ImGuiSliderFlags_AlwaysClamp);
         break;
+    case Kind::PROFILE:
+        changed = draw_profile(v, info, id);
+        break;
     case Kind::COLOR:
         changed = ImGui::ColorEdit3(id, v);
         break;
@@ -77,8 +135,8 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
     }
     if (changed)
     {
-        double values[3];
-        for (int i = 0; i < 3; ++i)
+        double values[kMostNumbers];
+        for (int i = 0; i < info.components(); ++i)
             values[i] = std::clamp(v[i], info.min, info.max);
         set_numbers(style.params, info, values);
     }

@@ -189,6 +189,14 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+
+    const int nobody = 0;
+    glGenBuffers(1, &leader_buffer_);
+    glBindBuffer(GL_TEXTURE_BUFFER, leader_buffer_);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof nobody, &nobody, GL_STATIC_DRAW);
+    glGenTextures(1, &leader_texture_);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32I, leader_buffer_);
 }
 
 Renderer::~Renderer()
@@ -201,11 +209,11 @@ Renderer::~Renderer()
         glDeleteTextures(1, &target->texture);
     }
     for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
-                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_})
+                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_})
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_})
+    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -300,6 +308,9 @@ void Renderer::draw_strands(const FrameInput& frame)
     glActiveTexture(GL_TEXTURE2);
     glBindTexture(GL_TEXTURE_1D, ramp_texture_);
     glUniform1i(program.uniform("ramp"), 2);
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glUniform1i(program.uniform("leaders"), 3);
     glActiveTexture(GL_TEXTURE0);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);

@@ -96,6 +96,7 @@ class Renderer
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
+    GLuint leader_texture_ = 0, leader_buffer_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
     GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset

@@ -4,7 +4,8 @@
 // four nodes only and could not.
 //
 // At the root the normal points away from the head, as far as the strand's direction lets it. Work-item: WIDTH strands.
-// w holds the strand's length from the root on, m, for the waves' phase.
+// w holds the strand's length from the root on, m, for the phase of waves and curls; in a clump it counts along the way
+// of the leader, so that all of them turn together.
 #include "drawn_lanes.h"
 
 static inline Points unit_or(Points v, Points otherwise)
@@ -21,7 +22,8 @@ static inline Points across(Points v, Points along)
     return points(v.x - along.x * part, v.y - along.y * part, v.z - along.z * part);
 }
 
-kernel void transport_frames(global const float4* drawn_position, global float4* drawn_frame, constant StepInfo* info)
+kernel void transport_frames(global const float4* drawn_position, global float4* drawn_frame,
+                             global const DrawnStrand* strands, constant StepInfo* info)
 {
     const int first = get_global_id(0) * WIDTH;
     if (first >= info->drawn)
@@ -42,7 +44,13 @@ kernel void transport_frames(global const float4* drawn_position, global float4*
     const Points lean = across(outward, tangent);
     Points normal = unit_or(select_points(across(side, tangent), lean, dot_lanes(lean, lean) > 1e-4f), side);
     real length_so_far = zero;
-    store_node(drawn_frame, strand, 0, normal, zero);
+#ifdef CLUMPS
+    float ahead[WIDTH];
+    for (int lane = 0; lane < WIDTH; ++lane)
+        ahead[lane] = strands[strand[lane]].weights.w;
+    length_so_far = LANES_LOAD(ahead);
+#endif
+    store_node(drawn_frame, strand, 0, normal, length_so_far);
 
     for (int k = 1; k < NODES; ++k)
     {

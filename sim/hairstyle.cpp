@@ -60,7 +60,7 @@ static bool read_hex_color(const std::string& text, double out[3])
 
 void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
-    double values[3] = {};
+    double values[kMostNumbers] = {};
     const auto wrong = [&](const char* wanted)
     { return fail("{} must be {}, not {}", info.path(), wanted, type_name(node)); };
     switch (info.kind)
@@ -82,6 +82,13 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
     case Kind::COLOR:
         if (!read_numbers(node, values, 3) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
             throw wrong("a colour like \"#8a5a3c\" or three numbers from 0 to 1");
+        break;
+    case Kind::PROFILE:
+        if (const toml::array* list = node.as_array(); list && list->size() != 4)
+            throw fail("{} must be four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0], not {}", info.path(),
+                       list->size());
+        if (!read_numbers(node, values, 4))
+            throw wrong("four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0]");
         break;
     case Kind::CHOICE:
     {
@@ -258,7 +265,7 @@ std::string list_text(const float* values, size_t count)
 
 std::string value_text(const Hairstyle& style, const ParamInfo& info)
 {
-    float v[3] = {};
+    float v[kMostNumbers] = {};
     if (!info.on_host())
         get_numbers(style.params, info, v);
     switch (info.kind)
@@ -271,6 +278,8 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return toml_string(param_labels(info).at(size_t(v[0])));
     case Kind::VECTOR:
         return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
+    case Kind::PROFILE:
+        return fmt::format("[{}, {}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]), float_text(v[3]));
     case Kind::COLOR:
     {
         int bytes[3];

@@ -36,6 +36,7 @@ enum class Kind
     CHOICE,
     VECTOR,
     COLOR,
+    PROFILE,
     TEXT,
     SHAPE,
     LIST
@@ -60,6 +61,8 @@ enum class ReadBy // ALL, or a choice of solver.kind and one more
     PBD
 };
 
+constexpr int kMostNumbers = 4; // of a parameter
+
 // One line of kernels/params.def, as data. Whatever handles parameters walks this table, so that nothing of it changes
 // when a parameter is added.
 struct ParamInfo
@@ -78,7 +81,7 @@ struct ParamInfo
 
     std::string path() const { return *name ? std::string(group) + "." + name : group; }
     bool on_host() const { return kind == Kind::TEXT || kind == Kind::SHAPE || kind == Kind::LIST; }
-    int components() const { return kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
+    int components() const { return kind == Kind::PROFILE ? 4 : kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
 };
 
 // What `action` gives for the list of `host` that a LIST stands for.
@@ -116,15 +119,23 @@ std::string nearest_param(std::string_view path);
 // The labels of a CHOICE, in order.
 std::vector<std::string> param_labels(const ParamInfo& info);
 
-// Authored numbers of a parameter that crosses to the device; VECTOR and COLOR fill three.
-void get_numbers(const HairParams& params, const ParamInfo& info, float out[3]);
+// Authored numbers of a parameter that crosses to the device; VECTOR and COLOR fill three, PROFILE four.
+void get_numbers(const HairParams& params, const ParamInfo& info, float out[kMostNumbers]);
 
 // Takes them after checking. Throws Error "strand.length is -1, but must lie in [0.002, 1.5] m".
-void set_numbers(HairParams& params, const ParamInfo& info, const double values[3]);
+void set_numbers(HairParams& params, const ParamInfo& info, const double values[kMostNumbers]);
+
+// A profile at `along` (0 at the root, 1 at the tip): kernels/strand_curve.h, said again in double for the host.
+double profile_at(const float4& profile, double along);
+float most_of(const float4& profile); // of its four numbers
+float least_of(const float4& profile);
 
 // Are the waves that `params` asks for bends of the strands themselves, and not laid on when they are drawn? They are
 // where eight nodes or more make a wave, and the solver knows bends.
 bool waves_are_shape(const HairParams& params);
+bool curls_are_shape(const HairParams& params); // the same of curls
+
+bool has_clumps(const HairParams& params);
 
 // Linear light for a component of an sRGB colour (IEC 61966-2-1).
 float linear_of_srgb(float component);

@@ -124,10 +124,19 @@ std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets
     return all;
 }
 
-static bool same_waves(const Hairstyle& a, const Hairstyle& b)
+static bool same_group(const char* group, const Hairstyle& a, const Hairstyle& b)
 {
     return std::ranges::all_of(param_table(), [&](const ParamInfo& info)
-                               { return info.group != std::string_view("wave") || same_value(a, b, info); });
+                               { return info.group != std::string_view(group) || same_value(a, b, info); });
+}
+
+// Do the shapes that strands are grown in differ, or is there now something to grow that there was not?
+static bool grown_otherwise(const Hairstyle& a, const Hairstyle& b)
+{
+    const bool waves = waves_are_shape(a.params), curls = curls_are_shape(a.params);
+    return waves != waves_are_shape(b.params) || curls != curls_are_shape(b.params) ||
+           ((waves || curls) && !same_group("wave", a, b)) || (curls && !same_group("curl", a, b)) ||
+           has_clumps(a.params) != has_clumps(b.params);
 }
 
 Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), authored_(std::move(style))
@@ -219,8 +228,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     for (const ParamInfo& info : param_table())
         regrow |= !same_value(style, style_, info) && ((info.effect != Effect::LIVE && info.effect != Effect::VIEW) ||
                                                        (varied && info.scope == Scope::STRAND));
-    const bool waves = waves_are_shape(style.params);
-    regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
+    regrow |= grown_otherwise(style, style_);
     bool refall = false;
     if (regrow)
     {

@@ -142,7 +142,8 @@ bool Solver::stands_rigid(const StepInfo& info)
 {
     constexpr double kStiff = 0.1, kWithin = 0.001; // droop number; m
     const double load = std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w));
-    const double softest = *std::min_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    const double softest =
+        *std::min_element(groom_.bend_factor.begin(), groom_.bend_factor.end()) * least_of(params_.bending_along);
     if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff * softest)
         return false;
     if (!rest_clear_)
@@ -164,7 +165,8 @@ void Solver::simulate_direct(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
-    const double stiffest = *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    const double stiffest =
+        *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end()) * most_of(params_.bending_along);
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links * stiffest;
     const bool contact = !colliders_.empty() || body_.grid;
     if (stands_rigid(info))
@@ -272,8 +274,9 @@ void Solver::draw()
                                    int(colliders_.size()), true, body_);
     upload(info);
     const std::string options =
-        fmt::format("{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
-                    groom_.looks.empty() ? "" : "-D VARIED ");
+        fmt::format("{}{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
+                    groom_.looks.empty() ? "" : "-D VARIED ",
+                    params_.flyaway_share > 0.0f && params_.flyaway_distance > 0.0f ? "-D FLYAWAY " : "");
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
@@ -290,7 +293,9 @@ void Solver::draw()
     }
     launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
-    launch_strands("transport_frames", "", groom_.drawn.size());
+    if (has_clumps(params_))
+        launch_strands("clump", fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "), groom_.drawn.size());
+    launch_strands("transport_frames", has_clumps(params_) ? "-D CLUMPS " : "", groom_.drawn.size());
 }
 
 double sum_of(const PassTimes& times)

@@ -16,7 +16,7 @@ class Panel : public testing::Test
         ImGui::CreateContext();
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = {500.0f, 4000.0f}; // tall enough for every parameter
+        io.DisplaySize = {500.0f, 5000.0f}; // tall enough for every parameter
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -79,13 +79,38 @@ TEST_F(Panel, a_drag_on_a_slider_changes_that_parameter_only)
         EXPECT_TRUE(same_value(style, expected, info)) << info.path();
 }
 
+TEST_F(Panel, a_point_of_a_profile_goes_where_the_mouse_drags_it)
+{
+    frame();
+    frame();
+    const WidgetPlace place = state.places.at("look.opacity_along");
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {place.left + 0.64f * (place.right - place.left), place.top + 5.0f}; // nearest to the third
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    const float height = 3.0f * ImGui::GetFrameHeight();
+    io.MousePos = {place.left, place.top + 0.5f * height}; // stays with the third, wherever the mouse goes
+    EXPECT_TRUE(frame());
+    io.MouseDown[0] = false;
+    frame();
+    const float4 is = style.params.look_opacity_along;
+    EXPECT_NEAR(is.z, 0.5f, 0.01f);
+    EXPECT_EQ(is, F4(1.0f, 1.0f, is.z, 1.0f));
+    Hairstyle expected;
+    expected.params.look_opacity_along = is;
+    for (const ParamInfo& info : param_table())
+        EXPECT_TRUE(same_value(style, expected, info)) << info.path();
+}
+
 TEST_F(Panel, what_the_chosen_solver_does_not_read_cannot_be_moved)
 {
     for (const char* solver : {"direct", "pbd"})
     {
         style = {};
         assign(style, std::string("solver.kind=") + solver);
-        for (const char* path : {"solver.iterations", "solver.substeps", "bending.droop", "forces.drag"})
+        for (const char* path :
+             {"solver.iterations", "solver.substeps", "bending.droop", "bending.along", "forces.drag"})
             EXPECT_EQ(click(path), is_read(*find_param(path), style.params)) << path << " under " << solver;
     }
 }

@@ -131,7 +131,7 @@ TEST_F(Stress, RandomStylesReachBothEndsOfEveryParameter)
         double middle = 0.0;
         for (int i = 0; i < kStyles; ++i)
         {
-            float v[3];
+            float v[kMostNumbers];
             get_numbers(stress::random_style(1, i, "s.obj").params, info, v);
             ASSERT_GE(v[0], info.min) << info.path();
             ASSERT_LE(v[0], info.max) << info.path();

@@ -69,8 +69,8 @@ Hairstyle random_style(int seed, int number, const std::string& scalp)
     {
         if (info.on_host())
             continue;
-        double values[3];
-        for (int i = 0; i < 3; ++i)
+        double values[kMostNumbers];
+        for (int i = 0; i < std::max(3, info.components()); ++i)
         {
             values[i] = draw_number(draw, info);
             if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
