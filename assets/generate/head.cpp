@@ -10,7 +10,7 @@ namespace
 // An egg, blunt end behind.
 double braincase(Vec p)
 {
-    return superellipsoid(p - Vec{0, 0.0110, -0.0010}, {0.0780 * (1 - 0.8 * p.z), 0.0890, 0.0975}, 2.18);
+    return superellipsoid(p - Vec{0, 0.0110, -0.0010}, {0.0765 * (1 - 0.8 * p.z), 0.0890, 0.0975}, 2.18);
 }
 
 // Without nose, eyes and lips: a stack of ovals whose half width and foremost point are drawn from the front and in
@@ -21,8 +21,8 @@ double face(Vec p)
                                                                       {-0.115, 0.0370},
                                                                       {-0.098, 0.0462},
                                                                       {-0.080, 0.0525},
-                                                                      {-0.060, 0.0590},
-                                                                      {-0.032, 0.0650},
+                                                                      {-0.060, 0.0605},
+                                                                      {-0.032, 0.0665},
                                                                       {-0.010, 0.0660},
                                                                       {0.010, 0.0640},
                                                                       {0.040, 0.0600}}};
@@ -34,7 +34,7 @@ double face(Vec p)
                                                                      {-0.060, 0.0988},
                                                                      {-0.040, 0.0930},
                                                                      {-0.012, 0.0930},
-                                                                     {0.004, 0.0975},
+                                                                     {0.004, 0.0962},
                                                                      {0.040, 0.0900}}};
     constexpr double kMiddle = 0.0100;
     const Vec radii{curve(kHalfWidth, p.y), 0, curve(kProfile, p.y) - kMiddle};
@@ -46,9 +46,9 @@ double face(Vec p)
 
 double with_face(double d, Vec p, Vec side)
 {
-    d = smooth_min(d, face(p), 0.026);
+    d = smooth_min(d, face(p), 0.034);
     d -= 0.0034 * bump(side, {0.0490, -0.0340, 0.0640}, {0.018, 0.012, 0.022}); // cheekbones
-    d -= 0.0024 * bump(side, {0.0260, 0.0075, 0.0900}, {0.022, 0.008, 0.020});  // brows
+    d -= 0.0020 * bump(side, {0.0260, 0.0075, 0.0900}, {0.022, 0.008, 0.020});  // brows
     d += 0.0016 * bump(side, {0.0620, 0.0120, 0.0520}, {0.018, 0.022, 0.022});  // temples
     d += 0.0016 * bump(side, {0.0460, -0.0700, 0.0600}, {0.018, 0.020, 0.026}); // cheeks
     d -= 0.0014 * bump(p, {0, -0.1120, 0.0980}, {0.016, 0.011, 0.016});         // chin
@@ -74,8 +74,8 @@ double with_eye(double d, Vec side)
 
 double with_nose(double d, Vec p, Vec side)
 {
-    double nose = capsule(p, {0, -0.0040, 0.0895}, 0.0074, {0, -0.0460, 0.1095}, 0.0080);
-    nose = smooth_min(nose, ellipsoid(p, {0, -0.0482, 0.1108}, {0.0092, 0.0080, 0.0090}), 0.010);
+    double nose = capsule(p, {0, -0.0040, 0.0890}, 0.0074, {0, -0.0450, 0.1102}, 0.0080);
+    nose = smooth_min(nose, ellipsoid(p, {0, -0.0480, 0.1108}, {0.0090, 0.0078, 0.0086}), 0.010);
     nose = smooth_min(nose, ellipsoid(side, {0.0106, -0.0530, 0.1012}, {0.0058, 0.0067, 0.0098}), 0.009);
     nose = smooth_min(nose, capsule(p, {0, -0.0545, 0.1110}, 0.0034, {0, -0.0605, 0.1010}, 0.0040), 0.006);
     nose = smooth_max(nose, -ellipsoid(side, {0.0062, -0.0596, 0.1055}, {0.0027, 0.0032, 0.0055}), 0.003);
@@ -101,8 +101,8 @@ double with_mouth(double d, Vec p)
 // the head, `pitch` follows the braincase's slope.
 double with_ear(double d, Vec side)
 {
-    const double yaw = 68 * kDegree, pitch = 5 * kDegree, lean = 0.20;
-    const Vec p = side - Vec{0.0760, -0.0290, -0.0160};
+    const double yaw = 65 * kDegree, pitch = 5 * kDegree, lean = 0.20;
+    const Vec p = side - Vec{0.0775, -0.0290, -0.0160};
     if (length(p) > 0.06)
         return d;
     const double out = std::sin(yaw) * p.x + std::cos(yaw) * p.z;

@@ -77,8 +77,6 @@ int main(int argc, char** argv)
         const double ears = ramp(0.060, 0.070, std::abs(p.x)) * ramp(0.02, 0.005, p.y) * ramp(-0.08, -0.065, p.y);
         return std::lerp(10e-5, 2.5e-5, std::max(face, 0.8 * ears));
     };
-    // Hair slides over the scalp above all, then over the neck.
-    const auto weight = [](Vec p) { return inside_hairline(p) > 0 ? 10.0 : p.z < 0.03 ? 3.0 : 1.0; };
     try
     {
         write(folder + "scalp.obj", obj(scalp(7, head, inside_hairline), "the whole scalp, a guide a vertex", 6));
@@ -86,7 +84,7 @@ int main(int argc, char** argv)
         write(folder + "scalp_strip.obj", obj(scalp(16, head, strip), "a strip along the midline, for a mohawk", 6));
         const Mesh bust = polygonise(head, {-0.18, -0.30, -0.13}, {0.18, 0.11, 0.14}, 0.003, sag, 0.0009);
         write(folder + "head.obj", obj(bust, "a mannequin's bust for the scalps beside it", 5));
-        write(folder + "head_spheres.toml", toml(fill_with_spheres(bust, head, weight, 35)));
+        write(folder + "head_spheres.toml", toml(fill_with_spheres(bust, head, inside_hairline, 35)));
     }
     catch (const std::runtime_error& error)
     {
