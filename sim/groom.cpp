@@ -66,8 +66,8 @@ static glm::vec3 flow(glm::vec3 n, glm::vec3 crown, float part)
     // The arc's point nearest to n, by its angle from the crown.
     const float angle = std::clamp(std::atan2(glm::dot(n, ahead), glm::dot(n, pole)), 0.0f, part);
     const glm::vec3 nearest = pole * std::cos(angle) + ahead * std::sin(angle);
-    const glm::vec3 away = n * glm::dot(n, nearest) - nearest;
-    const glm::vec3 back = -ahead - n * glm::dot(-ahead, n); // on the parting itself: backwards
+    const glm::vec3 away = glm::cross(n, glm::cross(n, nearest)); // across n to the last bit, even close to the crown
+    const glm::vec3 back = -ahead - n * glm::dot(-ahead, n);      // on the parting itself: backwards
     return unit(away, unit(back, unit(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
 }
 

@@ -303,17 +303,17 @@ TEST(Groom, a_parting_divides_left_from_right)
 TEST(Groom, the_last_blocks_spare_lanes_are_the_first_guide)
 {
     const Groom groom = grow({}, whole_scalp());
-    ASSERT_EQ(groom.guides, 248);
+    ASSERT_EQ(groom.guides, 252);
     ASSERT_EQ(groom.blocks, 16);
     ASSERT_EQ(groom.root_position.size(), 16u * 3 * 16);
     ASSERT_EQ(groom.segment_length.size(), 256u);
-    for (int s = 248; s < 256; ++s)
+    for (int s = 252; s < 256; ++s)
     {
         EXPECT_EQ(of_lane(groom.root_position, s), of_lane(groom.root_position, 0));
         EXPECT_EQ(of_lane(groom.root_direction, s), of_lane(groom.root_direction, 0));
         EXPECT_EQ(groom.segment_length[size_t(s)], groom.segment_length[0]);
     }
-    for (int g = 0; g < 248; ++g)
+    for (int g = 0; g < 252; ++g)
         EXPECT_EQ(of_lane(groom.root_position, g), whole_scalp().positions[size_t(g)]);
 }
 
