@@ -26,9 +26,7 @@ void Editor::say(const std::string& message, bool error)
 
 void Editor::note_unsaved()
 {
-    unsaved_ = gone_;
-    for (const ParamInfo& info : param_table())
-        unsaved_ |= !same_value(style_, saved_, info);
+    unsaved_ = gone_ || !same_style(style_, saved_);
     if (unsaved_)
         autosave_.keep(style_);
     else

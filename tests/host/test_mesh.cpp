@@ -1,5 +1,7 @@
 // Scalps, heads in every format that coif promises, and distances to triangles.
 #include "sim/mesh.h"
+
+#include "app/stress/random_style.h"
 #include "tests/host/scratch.h"
 
 #include <assimp/Exporter.hpp>
@@ -7,7 +9,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -60,7 +61,7 @@ TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
     }
 }
 
-TEST(Scalp, refined_has_a_vertex_more_at_the_middle_of_each_side)
+TEST(Scalp, refined_has_a_vertex_more_for_each_side)
 {
     for (const char* name : {"scalp.obj", "scalp_strip.obj"})
     {
@@ -78,30 +79,75 @@ TEST(Scalp, refined_has_a_vertex_more_at_the_middle_of_each_side)
             EXPECT_EQ(fine.positions[v], coarse.positions[v]);
             EXPECT_EQ(fine.normals[v], coarse.normals[v]);
         }
-        std::set<std::array<float, 3>> middles, found;
-        for (const auto& [a, b] : sides)
-        {
-            const glm::vec3 m = 0.5f * (coarse.positions[a] + coarse.positions[b]);
-            middles.insert({m.x, m.y, m.z});
-        }
+        // As far from one end as from the other, and not far from the middle between them.
+        size_t found = 0;
         for (size_t v = coarse.positions.size(); v < fine.positions.size(); ++v)
+            found += size_t(std::count_if(sides.begin(), sides.end(),
+                                          [&](const auto& side)
+                                          {
+                                              const glm::vec3 a = coarse.positions[side.first],
+                                                              b = coarse.positions[side.second], p = fine.positions[v];
+                                              return glm::distance(p, 0.5f * (a + b)) < 0.1f * glm::distance(a, b) &&
+                                                     std::abs(glm::distance(p, a) - glm::distance(p, b)) <
+                                                         0.05f * glm::distance(a, b);
+                                          }));
+        EXPECT_EQ(found, sides.size());
+        // Seen from the same side.
+        for (const glm::uvec3& t : fine.triangles)
         {
-            found.insert({fine.positions[v].x, fine.positions[v].y, fine.positions[v].z});
-            EXPECT_NEAR(glm::length(fine.normals[v]), 1.0f, 1e-5f);
+            const glm::vec3 a = fine.positions[t.x];
+            const glm::vec3 n = glm::normalize(glm::cross(fine.positions[t.y] - a, fine.positions[t.z] - a));
+            for (int k = 0; k < 3; ++k)
+                EXPECT_GT(glm::dot(n, fine.normals[t[k]]), 0.9f);
         }
-        EXPECT_EQ(found, middles);
-        // The same surface, seen from the same side.
-        const auto area = [](const Scalp& scalp)
-        {
-            glm::dvec3 sum(0.0);
-            for (const glm::uvec3& t : scalp.triangles)
-                sum += glm::cross(glm::dvec3(scalp.positions[t.y] - scalp.positions[t.x]),
-                                  glm::dvec3(scalp.positions[t.z] - scalp.positions[t.x]));
-            return sum;
-        };
-        EXPECT_LT(glm::distance(area(fine), area(coarse)), 1e-5 * glm::length(area(coarse)));
         EXPECT_EQ(refined(coarse, 2).positions, refined(fine, 1).positions);
+        EXPECT_EQ(refined(coarse, 2).normals, refined(fine, 1).normals);
     }
+}
+
+// Else what grows from a refined scalp starts inside the head.
+TEST(Scalp, refined_stays_on_the_sphere_that_it_is_a_part_of)
+{
+    const auto deepest = [](const Scalp& scalp)
+    {
+        float most = 0.0f;
+        for (const glm::vec3& p : scalp.positions)
+            most = std::max(most, std::abs(glm::distance(p, scalp.center) - scalp.radius));
+        return most / scalp.radius;
+    };
+    const Scratch scratch;
+    // An octahedron's sides span a right angle: 3/8 t^4 is not small there, but the chords' middles are at 0.29.
+    const fs::path eight = scratch.write("eight.obj", "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                                                      "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                                                      "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    EXPECT_LT(deepest(refined(load_scalp(eight), 1)), 0.12f);
+    EXPECT_LT(deepest(refined(load_scalp(eight), 3)), 0.16f);
+    // Sides of up to 0.83; their chords are at 0.085.
+    const fs::path half = scratch.write("half.obj", stress::small_scalp());
+    EXPECT_LT(deepest(refined(load_scalp(half), 1)), 0.015f);
+    EXPECT_LT(deepest(refined(load_scalp(half), 3)), 0.015f);
+    for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
+    {
+        const Scalp scalp = load_scalp(shipped(name));
+        EXPECT_LT(deepest(refined(scalp, 2)), deepest(scalp) + 5e-4f) << name;
+    }
+}
+
+TEST(Scalp, refined_keeps_what_is_flat_flat_and_what_is_straight_straight)
+{
+    const Scratch scratch;
+    const fs::path file = scratch.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 4 3\n");
+    const Scalp fine = refined(load_scalp(file), 2);
+    for (size_t v = 5; v < fine.positions.size(); ++v)
+    {
+        EXPECT_EQ(fine.positions[v].y, 0.0f);
+        for (const int axis : {0, 2})
+            EXPECT_EQ(std::fmod(fine.positions[v][axis], 0.25f), 0.0f);
+    }
+    // However sharp a fold, no middle is further from its chord than a quarter of that.
+    const fs::path sharp = scratch.write("sharp.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0.01 0\nf 1 2 3\nf 1 3 4\n");
+    for (const glm::vec3& p : refined(load_scalp(sharp), 2).positions)
+        EXPECT_LT(std::abs(p.y), 0.2f);
 }
 
 TEST(Scalp, is_refined_until_it_carries_as_many_guides_as_coif_takes)
