@@ -326,8 +326,8 @@ std::vector<TomlEntry> list_entries(const HostParams& host, const ParamInfo& inf
                                            [&](const auto& field)
                                            {
                                                const bool needed = field.first == "center" || field.first == "radius";
-                                               return !needed && std::find(usual.begin(), usual.end(), field) !=
-                                                                     usual.end();
+                                               return !needed &&
+                                                      std::find(usual.begin(), usual.end(), field) != usual.end();
                                            });
                              entries.push_back(all);
                          }
@@ -360,8 +360,9 @@ static void check(ScalpMap& map, const EntryReader& at)
     const ParamInfo* info = find_param(map.of);
     const toml::node& of = *at.table.get("of");
     if (!info)
-        throw at.wrong(of, "of", fmt::format("is '{}', but no parameter is called that; the nearest is {}", map.of,
-                                             nearest_param(map.of)));
+        throw at.wrong(
+            of, "of",
+            fmt::format("is '{}', but no parameter is called that; the nearest is {}", map.of, nearest_param(map.of)));
     if (info->on_host() || info->scope != Scope::STRAND)
         throw at.wrong(of, "of", fmt::format("is {}, which is the same for the whole head", map.of));
     const bool color = info->kind == Kind::COLOR;

@@ -1,4 +1,5 @@
-// The [[tables]] of a hairstyle file (sim/lists.h), read and written. What sim/hairstyle.cpp and hairstyle_save.cpp share.
+// The [[tables]] of a hairstyle file (sim/lists.h), read and written. What sim/hairstyle.cpp and hairstyle_save.cpp
+// share.
 #pragma once
 #include "sim/hairstyle.h"
 #include "sim/toml_edit.h"

@@ -86,7 +86,7 @@ constexpr Limits kPlaces = {-100.0f, 100.0f, "m"};
 constexpr bool kNeeded = true;
 
 template <typename Visitor, typename Entry>
-    requires std::same_as<std::remove_const_t<Entry>, Collider>
+requires std::same_as<std::remove_const_t<Entry>, Collider>
 void fields(Visitor& visit, Entry& entry)
 {
     visit.point("center", entry.center, kPlaces, kNeeded);
@@ -96,7 +96,7 @@ void fields(Visitor& visit, Entry& entry)
 }
 
 template <typename Visitor, typename Entry>
-    requires std::same_as<std::remove_const_t<Entry>, Region>
+requires std::same_as<std::remove_const_t<Entry>, Region>
 void fields(Visitor& visit, Entry& entry)
 {
     visit.text("name", entry.name, kNeeded);
@@ -110,7 +110,7 @@ void fields(Visitor& visit, Entry& entry)
 }
 
 template <typename Visitor, typename Entry>
-    requires std::same_as<std::remove_const_t<Entry>, Parting>
+requires std::same_as<std::remove_const_t<Entry>, Parting>
 void fields(Visitor& visit, Entry& entry)
 {
     visit.points("points", entry.points, kPlaces);
@@ -118,7 +118,7 @@ void fields(Visitor& visit, Entry& entry)
 }
 
 template <typename Visitor, typename Entry>
-    requires std::same_as<std::remove_const_t<Entry>, ScalpMap>
+requires std::same_as<std::remove_const_t<Entry>, ScalpMap>
 void fields(Visitor& visit, Entry& entry)
 {
     visit.text("of", entry.of, kNeeded);

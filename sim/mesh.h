@@ -22,9 +22,9 @@ struct Mesh
 // A scalp: vertex i carries guide i.
 struct Scalp : Mesh
 {
-    glm::vec3 center{0.0f}; // of the sphere that fits the vertices best, m
-    float radius = 0.0f;    // of that sphere, m
-    float extent = 0.0f;    // longest side of the vertices' bounding box, m
+    glm::vec3 center{0.0f};                              // of the sphere that fits the vertices best, m
+    float radius = 0.0f;                                 // of that sphere, m
+    float extent = 0.0f;                                 // longest side of the vertices' bounding box, m
     std::map<std::string, std::vector<unsigned>> groups; // of the file: name -> vertices of its triangles
     std::vector<glm::uvec2> between; // of a refined one: each vertex after the authored ones lies between these two
 };

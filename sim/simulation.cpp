@@ -47,13 +47,15 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
-    if (const auto& rest = style.host.groom_rest.shapes; rest && size_t(rest->strands()) != assets.scalp.positions.size())
+    if (const auto& rest = style.host.groom_rest.shapes;
+        rest && size_t(rest->strands()) != assets.scalp.positions.size())
         placed("groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
-            for (size_t i = 0; i < with_list(style.host, info, [](const auto& list) { return list.size(); }); ++i)
-                placed(fmt::format("{}[{}]", info.group, i),
-                       [&] { check_entry(style.host, info, i, assets.scalp); });
+            for (size_t i = 0; i < with_list(
+                                       style.host, info, [](const auto& list) { return list.size(); });
+                 ++i)
+                placed(fmt::format("{}[{}]", info.group, i), [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
     if (!style.host.head_spheres.empty())
@@ -349,6 +351,13 @@ StrandShapes Simulation::shapes() const
     StrandShapes shapes = shapes_of(in_head_frame(position.as<float>(), solver_->groom(), solver_->head().turn),
                                     solver_->groom(), style_.params.head_scale);
     shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes)); // a refined scalp's own come first
+    return shapes;
+}
+
+StrandShapes Simulation::rest_shapes() const
+{
+    StrandShapes shapes = shapes_of(solver_->rest_positions(), solver_->groom(), style_.params.head_scale);
+    shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes));
     return shapes;
 }
 

@@ -73,7 +73,8 @@ class Simulation
     void settle(double seconds);
     // The guides as they lie now, for groom.rest: those at the authored scalp's vertices.
     StrandShapes shapes() const;
-    void reset(); // hair to its rest shape, where the head is
+    StrandShapes rest_shapes() const; // where they begin
+    void reset();                     // hair to its rest shape, where the head is
 
     double step_seconds() const;
     double time() const { return time_; }

@@ -294,7 +294,9 @@ void Solver::draw()
     launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
     if (has_clumps(params_))
-        launch_strands("clump", fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "), groom_.drawn.size());
+        launch_strands("clump",
+                       fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "),
+                       groom_.drawn.size());
     launch_strands("transport_frames", has_clumps(params_) ? "-D CLUMPS " : "", groom_.drawn.size());
 }
 
