@@ -36,6 +36,7 @@ struct Field
     X(sweep_axis) X(sweep_from) X(sweep_sign) X(body_x) X(body_y) X(body_z)
 #define PATH_FIELDS(X) X(row) X(drag)
 #define CAPSULE_FIELDS(X) X(center) X(axis)
+#define LOOK_FIELDS(X) X(root_color) X(tip_color) X(wave) X(own)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed) X(leader)
 // clang-format on
 
@@ -55,10 +56,12 @@ std::vector<Field> all_fields()
 #define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
 #define PATH_FIELD(name) fields.push_back({"StepPath", #name, int(offsetof(StepPath, name))});
 #define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
+#define LOOK_FIELD(name) fields.push_back({"StrandLook", #name, int(offsetof(StrandLook, name))});
     STEP_FIELDS(STEP_FIELD)
     PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
     CAPSULE_FIELDS(CAPSULE_FIELD)
+    LOOK_FIELDS(LOOK_FIELD)
     return fields;
 }
 
@@ -99,7 +102,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule"})
+    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule", "StrandLook"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -127,6 +130,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     EXPECT_EQ(offset[fields.size() + 2], int(sizeof(StepPath)));
     EXPECT_EQ(offset[fields.size() + 3], int(sizeof(DrawnStrand)));
     EXPECT_EQ(offset[fields.size() + 4], int(sizeof(Capsule)));
+    EXPECT_EQ(offset[fields.size() + 5], int(sizeof(StrandLook)));
 }
 
 // A program whose only purpose is to make a uniform block active.

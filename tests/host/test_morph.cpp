@@ -42,7 +42,9 @@ TEST(Morph, numbers_and_colours_lie_between_and_the_rest_switches_in_the_middle)
         const Hairstyle style = morphed(a, b, at);
         for (const ParamInfo& info : param_table())
             if (info.on_host() || info.kind == Kind::CHOICE)
+            {
                 EXPECT_TRUE(same_value(style, at < 0.5 ? a : b, info)) << info.path();
+            }
             else
                 for (size_t i = 0; i < numbers(a, info).size(); ++i)
                 {
@@ -57,7 +59,9 @@ TEST(Morph, numbers_and_colours_lie_between_and_the_rest_switches_in_the_middle)
         const Hairstyle read = load_hairstyle(scratch / "c.toml");
         for (const ParamInfo& info : param_table())
             if (info.kind != Kind::TEXT)
+            {
                 EXPECT_TRUE(same_value(read, style, info)) << info.path();
+            }
         EXPECT_EQ(read.text.substr(0, 10), a.text.substr(0, 10));
     }
 }
@@ -88,7 +92,9 @@ TEST(Randomise, the_seed_and_the_style_say_it_all)
         changed += !same_value(one, bob, info);
         differ += !same_value(one, other, info);
         if (!is_left_to_chance(info, bob.params))
+        {
             EXPECT_TRUE(same_value(one, bob, info)) << info.path();
+        }
     }
     EXPECT_GT(changed, 10);
     EXPECT_GT(differ, 10);
