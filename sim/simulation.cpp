@@ -57,7 +57,9 @@ Assets load_assets(const Hairstyle& style)
                  ++i)
                 placed(fmt::format("{}[{}]", info.group, i), [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
-        assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
+        assets.head = load("head.mesh", style.host.head_mesh,
+                           [&](const std::filesystem::path& file)
+                           { return upright(load_mesh(file), style.params.head_unit, style.params.head_up); });
     if (!style.host.head_spheres.empty())
         assets.spheres = load("head.spheres", style.host.head_spheres, load_colliders);
     else
@@ -83,9 +85,10 @@ std::string doubtful_size(const HairParams& params, const Assets& assets)
     // A head alone is little larger than its scalp, a whole body ten times.
     if (head > 0.5 * scalp && head < 20.0 * scalp)
         return {};
-    return fmt::format("the head's mesh is {:.3g} m in size, the scalp {:.2g} m: head.mesh_scale is 0.01 for a mesh in "
-                       "centimetres, 0.001 for one in millimetres",
-                       head, scalp);
+    return fmt::format(
+        "the head's mesh is {:.3g} m in size, the scalp {:.2g} m: head.unit says whether its numbers are "
+        "m, cm, mm, inch or foot, where the file does not",
+        head, scalp);
 }
 
 PlacedGrid head_grid(const Hairstyle& style, Assets& assets)
@@ -214,8 +217,10 @@ static bool same_hair(const Hairstyle& a, const Hairstyle& b)
 void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
     const bool meshes =
-        reload || std::ranges::any_of(param_table(), [&](const ParamInfo& info)
-                                      { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
+        reload || authored.params.head_unit != authored_.params.head_unit ||
+        authored.params.head_up != authored_.params.head_up ||
+        std::ranges::any_of(param_table(), [&](const ParamInfo& info)
+                            { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
     Assets fresh = meshes ? load_assets(authored) : Assets{}; // may throw; nothing has changed yet
     Quality quality = quality_;
     Hairstyle style = authored;

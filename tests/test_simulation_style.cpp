@@ -75,6 +75,8 @@ TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther
     // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
     // the shaders read of a wave. There is one way yet to choose guides.
     const std::set<std::string> elsewhere = {"head.mesh_scale",
+                                             "head.unit",
+                                             "head.up",
                                              "wave.normal_frequency",
                                              "wave.normal_randomness",
                                              "wave.binormal_frequency",
