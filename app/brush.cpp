@@ -56,7 +56,10 @@ static ScalpMap& painted_map(Hairstyle& style, const char* of, const Scalp& scal
 
 static bool painted(const ScalpMap& map)
 {
-    return std::ranges::any_of(map.values, [&](float v) { return v != (map.how == MAP_FACTOR ? 1.0f : 0.0f); });
+    for (size_t i = 0; i < map.values.size(); ++i)
+        if ((map.how != MAP_OVER || i % 4 == 3) && map.values[i] != (map.how == MAP_FACTOR ? 1.0f : 0.0f))
+            return true;
+    return false;
 }
 
 // Moves a number, as it is at each vertex, towards `aim`.
@@ -209,14 +212,15 @@ static bool comb(Hairstyle& style, const Scalp& scalp, const StrandShapes& rest,
                           const float size = glm::length(segment), level = glm::length(flat);
                           if (!(size > 1e-9f))
                               return segment;
-                          // Upright ones are laid over; the others turn in the plane of the scalp.
                           const glm::vec3 from = level > 0.05f * size ? flat / level : 0.2f * aim;
                           const float by = share * fade_along(k, nodes);
                           const glm::vec3 to = glm::mix(from, aim, by);
-                          const float out = glm::dot(segment, n) / size;
-                          const float beside = std::max(std::sqrt(std::max(0.0f, 1.0f - out * out)), 0.3f * by);
-                          return glm::length(to) > 1e-6f ? size * glm::normalize(n * out + glm::normalize(to) * beside)
-                                                         : segment;
+                          if (!(glm::length(to) > 1e-6f))
+                              return segment;
+                          // Upright ones are laid over by and by; the others turn in the plane of the scalp.
+                          const float lean = std::atan2(level, glm::dot(segment, n)), laid = glm::radians(75.0f);
+                          const float leant = lean + 0.5f * by * std::max(0.0f, laid - lean);
+                          return size * (n * std::cos(leant) + glm::normalize(to) * std::sin(leant));
                       });
         changed = true;
     }

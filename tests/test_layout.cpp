@@ -114,14 +114,14 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
                                             "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n"
-                                            "    Capsule Capsule_;\n" +
+                                            "    Capsule Capsule_;\n    StrandLook StrandLook_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 5, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 6, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 5);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 6);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;

@@ -162,29 +162,29 @@ TEST(StrandShapes, strands_follow_their_curves_as_far_as_they_are_long)
     }
     style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(3, 4));
     EXPECT_EQ(error_of([&] { grow(style.params, scalp, style.host); }),
-              "groom.rest holds 3 strands, but the scalp has 248 vertices: freeze the hair on this scalp again");
+              "groom.rest holds 3 strands, but the scalp has 252 vertices: freeze the hair on this scalp again");
 }
 
 TEST(StrandShapes, a_save_keeps_them_beside_the_style_and_never_writes_over_anothers)
 {
     Scratch scratch;
-    const std::string theirs = shapes_text(some_shapes(248, 4));
+    const std::string theirs = shapes_text(some_shapes(252, 4));
     scratch.write("shared.rest", theirs);
     const std::string text = "# mine\n[groom]\nrest = \"shared.rest\" # from a friend\n";
     Hairstyle style = load_hairstyle(scratch.write("a.toml", text));
     save_hairstyle(style, scratch / "a.toml");
     EXPECT_EQ(bytes_of(scratch / "a.toml"), text) << "what is as it was is not touched";
     EXPECT_FALSE(fs::exists(scratch / "a.rest"));
-    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(248, 5));
+    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(252, 5));
     save_hairstyle(style, scratch / "a.toml");
     EXPECT_EQ(bytes_of(scratch / "shared.rest"), theirs);
     EXPECT_EQ(bytes_of(scratch / "a.toml"), "# mine\n[groom]\nrest = \"a.rest\" # from a friend\n");
-    EXPECT_EQ(*load_hairstyle(scratch / "a.toml").host.groom_rest.shapes, some_shapes(248, 5));
+    EXPECT_EQ(*load_hairstyle(scratch / "a.toml").host.groom_rest.shapes, some_shapes(252, 5));
     // Elsewhere it comes along, and a file that has vanished is written again.
     fs::create_directory(scratch / "other");
     fs::remove(scratch / "a.rest");
     save_hairstyle(style, scratch / "other" / "b.toml");
-    EXPECT_EQ(*load_hairstyle(scratch / "other" / "b.toml").host.groom_rest.shapes, some_shapes(248, 5));
+    EXPECT_EQ(*load_hairstyle(scratch / "other" / "b.toml").host.groom_rest.shapes, some_shapes(252, 5));
 }
 
 TEST(StrandShapes, large_maps_lie_in_files_of_their_own)
