@@ -58,16 +58,16 @@ TEST_F(EditorBrush, each_brush_paints_in_one_stroke_and_one_undo_takes_it_back)
         choose(name);
         editor->brush().strength = 0.8f;
         const size_t edits = editor->history().edits.size();
-        const Hairstyle before = editor->style();
+        const Hairstyle unpainted = editor->style();
         stroke(120.0, 0.0);
         shoot(std::string("brush_") + name);
         EXPECT_TRUE(std::ranges::any_of(maps(), [path = path](const ScalpMap& map) { return map.of == path; })) << name;
         EXPECT_EQ(editor->history().edits.size(), edits + 1) << name << ": one stroke, one edit";
         EXPECT_TRUE(editor->unsaved());
         xdotool("key ctrl+z");
-        EXPECT_TRUE(until([&] { return same_style(editor->style(), before); })) << name;
+        EXPECT_TRUE(until([&] { return same_style(editor->style(), unpainted); })) << name;
         xdotool("key ctrl+shift+z");
-        EXPECT_TRUE(until([&] { return !same_style(editor->style(), before); })) << name;
+        EXPECT_TRUE(until([&] { return !same_style(editor->style(), unpainted); })) << name;
     }
     choose("smooth");
     const auto painted = maps();
