@@ -47,27 +47,13 @@ class EditorWindow : public testing::Test
         xdotool("windowfocus $(xdotool search --onlyvisible --name coif | tail -n 1)");
         frames(2);
     }
-    // The whole window into a folder that is asked for, to be looked at.
+    // A moment worth looking at: COIF_TEST_SHOOT, if set, is a command that is told its name.
     void shoot(const std::string& name)
     {
-        const char* wanted = std::getenv("COIF_TEST_PICTURES");
-        if (!wanted)
-            return;
+        const char* command = std::getenv("COIF_TEST_SHOOT");
         frames(2);
-        int width = 0, height = 0;
-        SDL_GL_GetDrawableSize(editor->window(), &width, &height);
-        std::vector<unsigned char> rows(size_t(4) * size_t(width) * size_t(height));
-        glReadBuffer(GL_FRONT);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-        glReadBuffer(GL_BACK);
-        Image image{width, height, std::vector<unsigned char>(rows.size())};
-        for (int y = 0; y < height; ++y) // GL's first row is the lowest
-            for (int i = 0; i < 4 * width; ++i)
-                image.pixels[size_t(4 * width) * size_t(height - 1 - y) + size_t(i)] =
-                    i % 4 == 3 ? 255 : rows[size_t(4 * width) * size_t(y) + size_t(i)];
-        fs::create_directories(wanted);
-        save_png(fs::path(wanted) / (name + ".png"), image);
+        if (command && std::system((std::string(command) + " " + name).c_str()) != 0)
+            ADD_FAILURE() << command << " " << name;
     }
     void TearDown() override
     {
