@@ -186,7 +186,7 @@ TEST_F(EditorWindow, presets_are_browsed_by_their_pictures_copied_renamed_and_th
     xdotool("mousemove " + at(100.0, 650.0));
     xdotool("key b");
     EXPECT_TRUE(until([&] { return editor->browser().places.contains("style.toml"); }));
-    EXPECT_TRUE(within(60.0,
+    EXPECT_TRUE(within(300.0,
                        [&]
                        {
                            return editor->browser().pictures.contains(folder / "style.toml") &&
