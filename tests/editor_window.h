@@ -98,29 +98,43 @@ class EditorWindow : public testing::Test
         SDL_GetWindowPosition(editor->window(), &left, &top);
         return std::to_string(left + int(x)) + " " + std::to_string(top + int(y));
     }
-    void drag(double x0, double y0, double x1, double y1, const std::string& button = "1")
+    // The mouse goes there, or presses and lets go; what is done has arrived when these return, however busy the
+    // machine.
+    void point(double x, double y)
     {
-        xdotool("mousemove " + at(x0, y0));
-        frames(3);
+        xdotool("mousemove " + at(x, y));
+        int now_x = 0, now_y = 0;
+        until(
+            [&]
+            {
+                SDL_GetMouseState(&now_x, &now_y);
+                return std::abs(now_x - int(x)) <= 1 && std::abs(now_y - int(y)) <= 1;
+            });
+        frames(2);
+    }
+    void press(const std::string& button = "1")
+    {
         xdotool("mousedown " + button);
-        frames(3);
-        for (int i = 1; i <= 5; ++i)
-        {
-            xdotool("mousemove " + at(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5));
-            frames(2);
-        }
+        until([] { return SDL_GetMouseState(nullptr, nullptr) != 0; });
+        frames(2);
     }
     void release(const std::string& button = "1")
     {
         xdotool("mouseup " + button);
+        until([] { return SDL_GetMouseState(nullptr, nullptr) == 0; });
         frames(3);
+    }
+    void drag(double x0, double y0, double x1, double y1, const std::string& button = "1")
+    {
+        point(x0, y0);
+        press(button);
+        for (int i = 1; i <= 5; ++i)
+            point(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5);
     }
     void click(const WidgetPlace& place)
     {
-        xdotool("mousemove " + at(0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)));
-        frames(3);
-        xdotool("mousedown 1");
-        frames(3);
+        point(0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom));
+        press();
         release();
     }
     // By the mouse, from one share of a widget to another.

@@ -195,15 +195,12 @@ TEST_F(EditorWindow, presets_are_browsed_by_their_pictures_copied_renamed_and_th
     shoot("browser");
     const auto type = [&](const std::string& name)
     {
-        frames(5);
-        xdotool("keydown ctrl+a"); // ImGui sees a key that is down in a frame
-        frames(3);
-        xdotool("keyup ctrl+a");
-        frames(3);
+        ASSERT_TRUE(until([&] { return !editor->browser().asked.empty(); }));
+        frames(5); // it takes the keyboard, and all of its name is chosen
         xdotool("type " + name);
-        frames(5);
-        xdotool("keydown Return");
-        frames(3);
+        EXPECT_TRUE(until([&] { return editor->browser().name == name; })) << editor->browser().name;
+        xdotool("keydown Return"); // ImGui sees a key that is down in a frame
+        EXPECT_TRUE(until([&] { return editor->browser().asked.empty(); }));
         xdotool("keyup Return");
         frames(3);
     };
@@ -236,7 +233,7 @@ TEST_F(EditorWindow, chance_is_one_step_to_take_back_and_leaves_locks_alone)
 {
     const Hairstyle first = editor->style();
     const WidgetPlace row = editor->panel().places.at("strand.length");
-    xdotool("mousemove " + at(row.left + 20.0, 0.5 * (row.top + row.bottom)));
+    point(row.left + 20.0, 0.5 * (row.top + row.bottom));
     ASSERT_TRUE(until([&] { return editor->panel().places.contains("strand.length lock"); }));
     click(editor->panel().places.at("strand.length lock"));
     EXPECT_TRUE(until([&] { return editor->panel().locked.contains("strand.length"); }));
@@ -337,9 +334,9 @@ TEST_F(EditorWindow, a_collider_that_is_added_or_dragged_and_a_value_taken_back_
     const Hairstyle first = editor->style();
     const WidgetPlace place = editor->panel().places.at("strand.length");
     // The x behind a value that differs from the default.
-    xdotool("mousemove " + at(place.right + 10.0, 0.5 * (place.top + place.bottom)));
-    frames(3);
-    xdotool("click 1");
+    point(place.right + 10.0, 0.5 * (place.top + place.bottom));
+    press();
+    release();
     EXPECT_TRUE(until([&] { return editor->style().params.strand_length == Hairstyle().params.strand_length; }));
     xdotool("mousemove " + at(100.0, 650.0));
     frames(3);
