@@ -211,7 +211,7 @@ static bool draw_chance(Hairstyle& style, PanelState& state)
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("of the next throw: it goes up by one with each");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - 2.0f * ImGui::GetStyle().ItemInnerSpacing.x);
     float percent = 100.0f * state.amount;
     if (ImGui::SliderFloat("by", &percent, 1.0f, 100.0f, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
         state.amount = 0.01f * percent;
