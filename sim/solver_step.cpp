@@ -1,8 +1,8 @@
 // What the device does: the passes of a step and of a picture, in their order.
 #include "sim/solver.h"
 
+#include "sim/bodies.h"
 #include "sim/error.h"
-#include "sim/health.h"
 #include "sim/material.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -154,7 +154,7 @@ bool Solver::stands_rigid(const StepInfo& info)
             for (int k = 2; k < groom_.nodes && *rest_clear_; ++k)
             {
                 const glm::dvec3 rest = vector_at(rest_.position.data(), s, k, groom_.nodes);
-                rest_clear_ = depth_in(bodies, *this, glm::vec3(head_.turn * rest)) < kWithin;
+                rest_clear_ = depth_in(bodies, body_, head_.turn, glm::vec3(head_.turn * rest)) < kWithin;
             }
     }
     return *rest_clear_;
