@@ -118,6 +118,11 @@ void Editor::handle_mouse(const SDL_Event& event)
             collider.center = center;
             apply();
         }
+        else if (held_.what == Grab::TIE)
+        {
+            style_.host.ties.at(held_.tie) = dragged_tie(held_, *simulation_, camera_, x, y, view_width_, view_height_);
+            apply();
+        }
         else if (held_.what != Grab::NONE)
             hand_ = dragged_head(held_, camera_, x, y, view_width_, view_height_);
     }

@@ -63,6 +63,22 @@ static inline void cut_strands(const Points* full, real cut, Points* node)
     }
 }
 
+#ifdef BRAIDED
+// What of the lanes is plaited, and where: in nodes, m for a node, m, and half the braid's thickness.
+typedef struct BraidedLanes
+{
+    real ring, per_node, pitch, depth;
+    whole which;
+} BraidedLanes;
+
+// braid_share() at a place along the strands, in nodes.
+static inline real braid_shares(const BraidedLanes* braid, real node)
+{
+    const real t = clamp(3.0f * (node - braid->ring) * braid->per_node / braid->pitch, (real)(0.0f), (real)(1.0f));
+    return select((real)(0.0f), t * t * (3.0f - 2.0f * t), braid->which);
+}
+#endif
+
 #define NEAR_MARGIN 0.01f // m
 
 // Finishes drawn strands whose nodes follow the guides at full length: cuts them to their own lengths, pushes them out
@@ -70,7 +86,12 @@ static inline void cut_strands(const Points* full, real cut, Points* node)
 static inline void finish_strands(const Points* full, const int* strand, global const DrawnStrand* strands,
                                   global float4* drawn_position, global const float* depth,
                                   global const float* body_distance, global const float4* body_way,
-                                  constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
+                                  constant Capsule* colliders, constant HairParams* params, constant StepInfo* info
+#ifdef BRAIDED
+                                  ,
+                                  const BraidedLanes* braid
+#endif
+)
 {
     float cuts[WIDTH], layers[WIDTH];
 #pragma unroll
@@ -90,7 +111,10 @@ static inline void finish_strands(const Points* full, const int* strand, global 
         high = points(fmax(high.x, node[k].x), fmax(high.y, node[k].y), fmax(high.z, node[k].z));
     }
     const float wave_n = params->wave_normal_amplitude, wave_b = params->wave_binormal_amplitude;
-    const float most_room = info->clearance + greatest(layer) + wave_n + wave_b;
+    float most_room = info->clearance + greatest(layer) + wave_n + wave_b;
+#ifdef BRAIDED
+    most_room += greatest(braid->depth);
+#endif
     short near[MOST_COLLIDERS];
     int near_count =
         colliders_near(colliders, info->colliders, (float3)(least(low.x), least(low.y), least(low.z)),
@@ -104,8 +128,12 @@ static inline void finish_strands(const Points* full, const int* strand, global 
             const float along = (float)(k - 1) / (float)(NODES - 2);
             const float onset_n = wave_n * wave_onset(along, params->wave_normal_begin);
             const float onset_b = wave_b * wave_onset(along, params->wave_binormal_begin);
-            const real room =
+            real room =
                 info->clearance + layer * min(1.0f, 4.0f * along) + sqrt(onset_n * onset_n + onset_b * onset_b);
+#ifdef BRAIDED // as one body
+            room = mix(room, info->clearance + braid->depth,
+                       braid_shares(braid, 1.0f + (float)(k - 1) * LANES_LOAD(cuts)));
+#endif
             out_of_all(body_distance, body_way, colliders, near, near_count, &p, room, info);
             const Points moved = points(p.x - node[k].x, p.y - node[k].y, p.z - node[k].z);
             // Pushed so far that it may have come into a collider that was not near.

@@ -1,5 +1,6 @@
 #pragma once
 #include "kernels/shared.h"
+#include "sim/tie.h"
 
 #include <glm/vec3.hpp>
 
@@ -32,6 +33,7 @@ struct Collider
 struct HostParams
 {
 #include "kernels/params.def"
+    std::vector<Tie> ties;
     bool operator==(const HostParams&) const = default;
 };
 #undef COIF_PARAM

@@ -116,6 +116,34 @@ std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets
     return all;
 }
 
+TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedGrid& grid)
+{
+    std::vector<Collider> spheres = all_colliders(style, assets, grid.grid != nullptr);
+    spheres.resize(spheres.size() - style.host.colliders.size()); // the style's own may come and go
+    return {grid, spheres};
+}
+
+Groom grown(const Hairstyle& style, Assets& assets)
+{
+    Groom groom = grow(style.params, assets.scalp);
+    const std::vector<Tie>& ties = style.host.ties;
+    if (!ties.empty())
+        tie_hair(groom, style.params, assets.scalp, ties, nearest_ties(groom, style.params, ties),
+                 tie_ground(style, assets, head_grid(style, assets)));
+    return groom;
+}
+
+std::string doubtful_ties(const Hairstyle& style, const Groom& groom)
+{
+    std::string said;
+    for (size_t i = 0; i < groom.short_of_ring.size(); ++i)
+        if (groom.short_of_ring[i] > 0)
+            said +=
+                fmt::format("{}tie '{}': {} simulated strands are too short to come through its ring and hang loose",
+                            said.empty() ? "" : "; ", style.host.ties[i].name, groom.short_of_ring[i]);
+    return said;
+}
+
 static bool same_waves(const Hairstyle& a, const Hairstyle& b)
 {
     return std::ranges::all_of(param_table(), [&](const ParamInfo& info)
@@ -126,7 +154,7 @@ Simulation::Simulation(const Device& device, Hairstyle style) : device_(device),
 {
     assets_ = load_assets(authored_);
     style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
-    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp), hand_);
+    solver_ = std::make_unique<Solver>(device_, style_.params, grown(style_, assets_), hand_);
     set_bodies(style_);
     drape();
 }
@@ -211,18 +239,20 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         regrow |= info.effect != Effect::LIVE && info.effect != Effect::VIEW && !same_value(style, style_, info);
     const bool waves = waves_are_shape(style.params);
     regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
+    // Held hair is laid in segments of the length that spacing gives them.
+    regrow |= style.host.ties != style_.host.ties ||
+              (!style.host.ties.empty() && style.params.strand_spacing != style_.params.strand_spacing);
     bool refall = false;
     if (regrow)
     {
-        Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp);
+        Groom groom = grown(style, meshes ? fresh : assets_);
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
         refall = groom.guides != old.guides || groom.nodes != old.nodes || (held && style.params.solver_kind == 0);
         if (!refall)
         {
-            groom.rest_position = old.rest_position;
-            groom.rest_multiplier = old.rest_multiplier;
+            keep_rest(groom, old);
         }
         solver_->set_groom(groom);
     }
