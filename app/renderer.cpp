@@ -176,6 +176,10 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    glGenTextures(1, &looks_texture_);
+    glBindTexture(GL_TEXTURE_2D, looks_texture_);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
     glGenTextures(1, &wave_texture_);
     glBindTexture(GL_TEXTURE_1D, wave_texture_);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -198,7 +202,7 @@ Renderer::~Renderer()
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture : {depth_texture_, wave_texture_, braid_texture_})
+    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, braid_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -288,9 +292,13 @@ void Renderer::draw_strands(const FrameInput& frame)
     glBindTexture(GL_TEXTURE_1D, wave_texture_);
     glUniform1i(program.uniform("wave"), 0);
     glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, looks_texture_);
+    glUniform1i(program.uniform("looks"), 1);
+    glUniform1i(program.uniform("varied"), !frame.simulation->solver().groom().looks.empty());
+    glActiveTexture(GL_TEXTURE2);
     glBindTexture(GL_TEXTURE_BUFFER, braid_texture_);
     glActiveTexture(GL_TEXTURE0);
-    glUniform1i(program.uniform("braids"), 1);
+    glUniform1i(program.uniform("braids"), 2);
     glUniform1i(program.uniform("braided"), braided_);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);

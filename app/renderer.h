@@ -75,6 +75,7 @@ class Renderer
     void upload_mesh(const FrameInput& frame);
     void upload_braids(const FrameInput& frame);
     void make_rings();
+    void upload_looks(const std::vector<StrandLook>& looks);
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
     void draw_solids(const FrameInput& frame);
@@ -96,7 +97,7 @@ class Renderer
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
     GLint braided_ = 0; // strands that may be
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
-    GLuint depth_texture_ = 0, wave_texture_ = 0;
+    GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
     GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset

@@ -146,8 +146,10 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
     { return row.x * groom.center.x + row.y * groom.center.y + row.z * groom.center.z; };
     const glm::vec3 center(turned(info.head_row0), turned(info.head_row1), turned(info.head_row2));
     // Room for the waves and for the curve that bulges between the nodes.
-    const float radius = enclosed_ * frame.params.head_scale - frame.params.wave_normal_amplitude -
-                         frame.params.wave_binormal_amplitude - 0.005f;
+    float waves = frame.params.wave_normal_amplitude + frame.params.wave_binormal_amplitude;
+    for (const StrandLook& look : groom.looks)
+        waves = std::max(waves, look.wave.x + look.wave.z);
+    const float radius = enclosed_ * frame.params.head_scale - waves - 0.005f;
     const auto hidden = [&](unsigned s, unsigned k)
     {
         const float4 at = p[s * nodes + k];
@@ -173,6 +175,18 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices_.size() * sizeof(unsigned)), indices_.data(),
                  GL_STREAM_DRAW);
     strand_index_count_ = GLsizei(indices_.size());
+}
+
+// As shaders/look.glsl reads them.
+void Renderer::upload_looks(const std::vector<StrandLook>& looks)
+{
+    constexpr size_t kInRow = 512;
+    static_assert(sizeof(StrandLook) == LOOK_TEXELS * 4 * sizeof(float));
+    std::vector<StrandLook> rows = looks;
+    rows.resize((std::max<size_t>(1, looks.size()) + kInRow - 1) / kInRow * kInRow);
+    glBindTexture(GL_TEXTURE_2D, looks_texture_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, LOOK_TEXELS * kInRow, GLsizei(rows.size() / kInRow), 0, GL_RGBA,
+                 GL_FLOAT, rows.data());
 }
 
 void Renderer::upload(const FrameInput& frame)
@@ -202,6 +216,7 @@ void Renderer::upload(const FrameInput& frame)
     upload_braids(frame);
     if (params.render_show != 1)
     {
+        upload_looks(frame.simulation->solver().groom().looks);
         glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_positions.bytes()), frame.drawn_positions.as<float>(),
                      GL_STREAM_DRAW);

@@ -84,6 +84,7 @@ static inline real braid_shares(const BraidedLanes* braid, real node)
 // Finishes drawn strands whose nodes follow the guides at full length: cuts them to their own lengths, pushes them out
 // of the colliders with room for their waves, and stores positions with the share of the light that reaches them in w.
 static inline void finish_strands(const Points* full, const int* strand, global const DrawnStrand* strands,
+                                  global const StrandLook* looks,
                                   global float4* drawn_position, global const float* depth,
                                   global const float* body_distance, global const float4* body_way,
                                   constant Capsule* colliders, constant HairParams* params, constant StepInfo* info
@@ -93,12 +94,19 @@ static inline void finish_strands(const Points* full, const int* strand, global 
 #endif
 )
 {
-    float cuts[WIDTH], layers[WIDTH];
+    float cuts[WIDTH], layers[WIDTH], waves_n[WIDTH], waves_b[WIDTH];
 #pragma unroll
     for (int lane = 0; lane < WIDTH; ++lane)
     {
         cuts[lane] = strands[strand[lane]].root.w;
         layers[lane] = params->interpolation_layer * strand_random(strands[strand[lane]].seed, RANDOM_LAYER);
+#ifdef VARIED
+        waves_n[lane] = looks[strand[lane]].wave.x;
+        waves_b[lane] = looks[strand[lane]].wave.z;
+#else
+        waves_n[lane] = params->wave_normal_amplitude;
+        waves_b[lane] = params->wave_binormal_amplitude;
+#endif
     }
     const real layer = LANES_LOAD(layers);
     Points node[NODES];
@@ -110,8 +118,8 @@ static inline void finish_strands(const Points* full, const int* strand, global 
         low = points(fmin(low.x, node[k].x), fmin(low.y, node[k].y), fmin(low.z, node[k].z));
         high = points(fmax(high.x, node[k].x), fmax(high.y, node[k].y), fmax(high.z, node[k].z));
     }
-    const float wave_n = params->wave_normal_amplitude, wave_b = params->wave_binormal_amplitude;
-    float most_room = info->clearance + greatest(layer) + wave_n + wave_b;
+    const real wave_n = LANES_LOAD(waves_n), wave_b = LANES_LOAD(waves_b);
+    float most_room = info->clearance + greatest(layer + wave_n + wave_b);
 #ifdef BRAIDED
     most_room += greatest(braid->depth);
 #endif
@@ -126,8 +134,8 @@ static inline void finish_strands(const Points* full, const int* strand, global 
         if (k > 1)
         {
             const float along = (float)(k - 1) / (float)(NODES - 2);
-            const float onset_n = wave_n * wave_onset(along, params->wave_normal_begin);
-            const float onset_b = wave_b * wave_onset(along, params->wave_binormal_begin);
+            const real onset_n = wave_n * wave_onset(along, params->wave_normal_begin);
+            const real onset_b = wave_b * wave_onset(along, params->wave_binormal_begin);
             real room =
                 info->clearance + layer * min(1.0f, 4.0f * along) + sqrt(onset_n * onset_n + onset_b * onset_b);
 #ifdef BRAIDED // as one body

@@ -26,7 +26,7 @@ static inline real kept_weight(global const float* position, const int* heaviest
 #endif
 
 kernel void interpolate_multi(global const float* position, global const DrawnStrand* strands,
-                              global float4* drawn_position, global const float* depth,
+                              global const StrandLook* looks, global float4* drawn_position, global const float* depth,
 #ifdef TIED
                               global const TiedStrand* tied, constant Tail* tails,
 #endif
@@ -81,7 +81,7 @@ kernel void interpolate_multi(global const float* position, global const DrawnSt
 #ifdef TIED
     hang_in_tails(&ties, position, node, info);
 #endif
-    finish_strands(node, strand, strands, drawn_position, depth, body_distance, body_way, colliders, params, info
+    finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info
 #ifdef BRAIDED
                    ,
                    &ties.braid

@@ -3,7 +3,7 @@
 #include "interpolate.h"
 
 kernel void interpolate_single(global const float* position, global const DrawnStrand* strands,
-                               global float4* drawn_position, global const float* depth,
+                               global const StrandLook* looks, global float4* drawn_position, global const float* depth,
                                global const float* body_distance, global const float4* body_way,
                                constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
 {
@@ -35,5 +35,5 @@ kernel void interpolate_single(global const float* position, global const DrawnS
         const Points turned = points(cy * x + sy * pz + center.x, py + center.y, cy * pz - sy * x + center.z);
         node[k] = turn_by(r0, r1, r2, turned);
     }
-    finish_strands(node, strand, strands, drawn_position, depth, body_distance, body_way, colliders, params, info);
+    finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info);
 }

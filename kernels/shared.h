@@ -156,6 +156,15 @@ typedef struct DrawnStrand
     int seed; // of what the kernels draw at random for this strand
 } DrawnStrand;
 
+// What of a drawn strand's look varies over the scalp. LOOK_TEXELS of these rows make one.
+#define LOOK_TEXELS 4
+typedef struct StrandLook
+{
+    float4 root_color; // linear; w: width, m
+    float4 tip_color;  // linear; w: opacity
+    float4 wave;       // along the normal: amplitude (m), frequency (1/m); along the binormal the same
+    float4 own;        // x: seed
+} StrandLook;
 // What ties make of a drawn strand (sim/tied_hair.h), beside its DrawnStrand.
 typedef struct TiedStrand
 {

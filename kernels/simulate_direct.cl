@@ -6,6 +6,8 @@
 //                                         bending and lengths, one after the other, leave a droop that hangs on h
 //   |a + move| = l, corrections along a   second order, no numerical damping
 //
+// Each strand has its own share of the stiffness, bend_factor.
+//
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
 // (with CONTACT), DENSITY and HELD are build options.
@@ -63,7 +65,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #ifdef HELD
                             global const int* held_nodes,
 #endif
-                            global const float* root_normal, global const float* gradient, global int* density,
+                            global const float* root_normal, global const float* bend_factor,
+                            global const float* gradient, global int* density,
                             global float* moved, global int* resets, global int* faults,
                             global const float* body_distance, constant Capsule* bodies, constant StepPath* path,
                             constant HairParams* params, constant StepInfo* info)
@@ -122,7 +125,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     // Stiffness over mass, 1/s^2: from the droop number, E I / (rho S) = g L^3 / Gamma, or from the modulus.
     const real per_length = 1.0f / rest;
     const real stiffness =
-        fmin(per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length),
+        fmin(per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length) *
+                 LANES_LOAD(bend_factor + strand),
              (real)(info->bend_most));
     lane_share weight[NODES];
     element_weights(params->bending_attenuation, held, weight);

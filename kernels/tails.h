@@ -120,7 +120,8 @@ static inline void hang_in_tails(const TiedLanes* lanes, global const float* pos
         last = select_points(last, middle, behind);
         const real way = ((float)k - lanes->ring) * lanes->per_node; // m
         const real t = clamp(3.0f * way / lanes->length, (real)(0.0f), (real)(1.0f));
-        const real wide = mix(lanes->radius, lanes->fullest, t * (2.0f - t));
+        const real thin = clamp(1.6f * way / lanes->length - 0.6f, (real)(0.0f), (real)(1.0f)); // towards the tips
+        const real wide = mix(lanes->radius, lanes->fullest, t * (2.0f - t)) * (1.0f - 0.5f * thin * thin);
         const real x = wide * lanes->place_x, y = wide * lanes->place_y;
         const Points front =
             points(tangent.y * normal.z - tangent.z * normal.y, tangent.z * normal.x - tangent.x * normal.z,

@@ -38,7 +38,9 @@ static inline BraidSides braid_sides(global const DrawnStrand* strands, global c
         const int mixed = strand[lane] < info->drawn_multi;
         const TiedStrand own = tied[mixed ? strand[lane] : 0];
         constant Tail* braid = tails + own.tail;
-        ring[lane] = mixed && own.ring > 0.0f && braid->axis.w > 0.0f ? 1.0f + (own.ring - 1.0f) / strands[strand[lane]].root.w : (float)NODES;
+        ring[lane] = mixed && own.ring > 0.0f && braid->axis.w > 0.0f
+                         ? 1.0f + (own.ring - 1.0f) / strands[strand[lane]].root.w
+                         : (float)NODES;
         ax[lane] = braid->axis.x;
         ay[lane] = braid->axis.y;
         az[lane] = braid->axis.z;

@@ -1,5 +1,8 @@
 #include "sim/groom.h"
 
+#include "sim/material.h"
+#include "sim/shaping.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -7,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 namespace coif
 {
@@ -21,7 +25,8 @@ enum Channel
     kWeightB,
     kCut,
     kStrandSeed,
-    kTurn // and upwards: one pair of channels for each try
+    kTurn, // and upwards: one pair of channels for each of eight tries
+    kKeep = kTurn + 16
 };
 
 static uint32_t pcg(uint32_t state)
@@ -62,14 +67,16 @@ static glm::vec3 flow(glm::vec3 n, glm::vec3 crown, float part)
     return unit(away, unit(back, unit(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
 }
 
-static glm::vec3 root_direction(const HairParams& p, glm::vec3 n, int guide)
+static glm::vec3 root_direction(const Shaping& shaping, const HairParams& p, int guide)
 {
+    const glm::vec3 n = shaping.scalp.normals[size_t(guide)];
     const float degree = std::numbers::pi_v<float> / 180.0f;
     const int seed = p.interpolation_seed;
     const float lift = (p.root_lift + p.root_lift_variation * random_sign(seed, guide, kLift)) * degree;
     const float sweep = (p.root_sweep + p.root_sweep_variation * random_sign(seed, guide, kSweep)) * degree;
     const glm::vec3 crown(p.root_crown.x, p.root_crown.y, p.root_crown.z);
-    const glm::vec3 down = flow(n, crown, p.root_part * degree);
+    const glm::vec3 down =
+        parted_flow(shaping, shaping.scalp.positions[size_t(guide)], n, flow(n, crown, p.root_part * degree));
     const glm::vec3 along = glm::angleAxis(sweep, n) * down;
     return unit(n * std::cos(lift) + along * std::sin(lift), n);
 }
@@ -103,9 +110,75 @@ DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3&
     return strand;
 }
 
-static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, const std::vector<glm::vec3>& directions,
-                       int count)
+// Guides on the other side of an edge or a parting get no weight. Where that leaves none, the nearest on this side has
+// it all.
+static void keep_to_own_side(const Scalp& scalp, const std::vector<Sides>& sides, const Sides& own, glm::vec3 root,
+                             glm::uvec3& guides, glm::vec3& weights)
 {
+    for (int k = 0; k < 3; ++k)
+        if (!may_mix(sides[guides[k]], own))
+            weights[k] = 0.0f;
+    if (weights.x + weights.y + weights.z > 0.01f)
+        return;
+    float nearest = INFINITY;
+    unsigned best = guides.x;
+    for (unsigned g = 0; g < sides.size(); ++g)
+        if (const float distance = glm::distance(scalp.positions[g], root);
+            distance < nearest && may_mix(sides[g], own))
+        {
+            nearest = distance;
+            best = g;
+        }
+    guides = glm::uvec3(best);
+    weights = {1.0f, 0.0f, 0.0f};
+}
+
+namespace
+{
+// What drawn strands are grown of.
+struct Ground
+{
+    const Shaping& shaping;
+    bool varied;                       // from place to place
+    std::vector<glm::vec3> directions; // of the guides' roots
+    std::vector<float> lengths;        // of the guides, m
+    std::vector<Sides> sides;          // of the guides
+};
+} // namespace
+
+// Cuts the strand with this number to its length and adds it, unless it is one of those that thin hair lacks.
+static void add_drawn(Groom& groom, const Ground& ground, DrawnStrand strand, const ScalpPlace& place, int index)
+{
+    const HairParams p = ground.varied ? params_at(ground.shaping, place) : ground.shaping.params;
+    const int seed = p.interpolation_seed;
+    if (p.interpolation_density < 1.0f && random01(seed, index, kKeep) >= p.interpolation_density)
+        return;
+    const float scale = p.head_scale;
+    strand.root = F4(place.point.x * scale, place.point.y * scale, place.point.z * scale,
+                     1.0f - p.strand_length_variation * random01(seed, index, kCut));
+    strand.seed = int(random01(seed, index, kStrandSeed) * 0x1p24f);
+    if (ground.varied)
+    {
+        const bool copy = strand.guide0 == strand.guide1 && strand.guide0 == strand.guide2;
+        const float4 w = copy ? F4(1.0f, 0.0f, 0.0f, 0.0f) : strand.weights;
+        const float length = w.x * ground.lengths[size_t(strand.guide0)] + w.y * ground.lengths[size_t(strand.guide1)] +
+                             w.z * ground.lengths[size_t(strand.guide2)];
+        strand.root.w = std::min(1.0f, strand.root.w * p.strand_length / std::max(length, 1e-6f));
+        const auto linear = [](const float4& c, float with)
+        { return F4(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z), with); };
+        const float waves = waves_are_shape(ground.shaping.params) ? 0.0f : 1.0f; // nothing is left to lay on
+        groom.looks.push_back({linear(p.look_root_color, p.look_width), linear(p.look_tip_color, p.look_opacity),
+                               F4(waves * p.wave_normal_amplitude, p.wave_normal_frequency,
+                                  waves * p.wave_binormal_amplitude, p.wave_binormal_frequency),
+                               F4(float(strand.seed), 0.0f, 0.0f, 0.0f)});
+    }
+    groom.drawn.push_back(strand);
+}
+
+static void grow_multi(Groom& groom, const Ground& ground, int count)
+{
+    const HairParams& p = ground.shaping.params;
+    const Scalp& scalp = ground.shaping.scalp;
     std::vector<double> area_up_to;
     double area = 0.0;
     for (const glm::uvec3& t : scalp.triangles)
@@ -130,24 +203,32 @@ static void grow_multi(Groom& groom, const HairParams& p, const Scalp& scalp, co
         const glm::vec3 weights(1.0f - b - c, b, c);
         const glm::vec3 root =
             scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z;
-        DrawnStrand strand = mixed_of(directions, t, weights);
-        strand.root = F4(root.x, root.y, root.z, 0.0f);
-        groom.drawn.push_back(strand);
+        const ScalpPlace place = {root, t, weights};
+        glm::uvec3 guides = t;
+        glm::vec3 shares = weights;
+        if (ground.varied)
+            keep_to_own_side(scalp, ground.sides, sides_at(ground.shaping, place), root, guides, shares);
+        add_drawn(groom, ground, mixed_of(ground.directions, guides, shares), place, i);
     }
 }
 
-// Is the point of the scalp in this direction from its centre covered by a triangle?
-static bool on_scalp(const Scalp& scalp, const std::vector<std::vector<unsigned>>& triangles_of, unsigned guide,
-                     glm::vec3 point)
+// Where a point beside a guide stands on the scalp; no corners where no triangle is near.
+static std::optional<ScalpPlace> place_near(const Scalp& scalp, const std::vector<unsigned>& triangles, glm::vec3 point)
 {
-    for (const unsigned index : triangles_of[guide])
+    for (const unsigned index : triangles)
     {
         const glm::uvec3 t = scalp.triangles[index];
-        if (triangle_distance(point, scalp.positions[t.x], scalp.positions[t.y], scalp.positions[t.z]) <
-            0.02f * scalp.extent)
-            return true;
+        const glm::vec3 a = scalp.positions[t.x], b = scalp.positions[t.y], c = scalp.positions[t.z];
+        const glm::vec3 away = from_triangle(point, a, b, c);
+        if (glm::length(away) >= 0.02f * scalp.extent)
+            continue;
+        const glm::vec3 normal = glm::cross(b - a, c - a), on = point - away;
+        const float twice = std::max(glm::dot(normal, normal), 1e-30f);
+        const float u = glm::clamp(glm::dot(glm::cross(c - b, on - b), normal) / twice, 0.0f, 1.0f);
+        const float v = glm::clamp(glm::dot(glm::cross(a - c, on - c), normal) / twice, 0.0f, 1.0f - u);
+        return ScalpPlace{point, t, {u, v, 1.0f - u - v}};
     }
-    return false;
+    return std::nullopt;
 }
 
 static glm::vec3 turned(glm::vec3 v, glm::vec3 center, float yaw, float pitch)
@@ -156,8 +237,10 @@ static glm::vec3 turned(glm::vec3 v, glm::vec3 center, float yaw, float pitch)
     return center + turn * (v - center);
 }
 
-static void grow_single(Groom& groom, const HairParams& p, const Scalp& scalp, int count)
+static void grow_single(Groom& groom, const Ground& ground, int count, int first)
 {
+    const HairParams& p = ground.shaping.params;
+    const Scalp& scalp = ground.shaping.scalp;
     // The triangles about each vertex and about its neighbours: where a turned copy may stand.
     std::vector<std::vector<unsigned>> own(scalp.positions.size()), near(scalp.positions.size());
     for (unsigned i = 0; i < scalp.triangles.size(); ++i)
@@ -174,27 +257,35 @@ static void grow_single(Groom& groom, const HairParams& p, const Scalp& scalp, i
     const float spread = p.interpolation_spread * std::numbers::pi_v<float> / 180.0f;
     for (int i = 0; i < count; ++i)
     {
-        const int index = groom.drawn_multi + i;
+        const int index = first + i;
         const int guide = i % groom.guides;
         float yaw = 0.0f, pitch = 0.0f;
-        glm::vec3 root = scalp.positions[size_t(guide)];
-        // Copies that would leave the scalp are drawn again, ever closer; the last resort is the guide itself.
+        ScalpPlace place = at_vertex(scalp, size_t(guide));
+        // Copies that would leave the scalp or their side are drawn again, ever closer; the last resort is the guide
+        // itself.
         for (int attempt = 0; attempt < 8; ++attempt)
         {
             const float within = spread * (1.0f - float(attempt) / 8.0f);
             yaw = within * random_sign(p.interpolation_seed, index, kTurn + 2 * attempt);
             pitch = within * random_sign(p.interpolation_seed, index, kTurn + 2 * attempt + 1);
-            root = turned(scalp.positions[size_t(guide)], scalp.center, yaw, pitch);
-            if (own[size_t(guide)].empty() || on_scalp(scalp, near, unsigned(guide), root))
+            const glm::vec3 root = turned(scalp.positions[size_t(guide)], scalp.center, yaw, pitch);
+            const std::optional<ScalpPlace> found = place_near(scalp, near[size_t(guide)], root);
+            if (own[size_t(guide)].empty())
+            {
+                place.point = root;
                 break;
+            }
+            if (found && (!ground.varied || may_mix(ground.sides[size_t(guide)], sides_at(ground.shaping, *found))))
+            {
+                place = *found;
+                break;
+            }
             yaw = pitch = 0.0f;
-            root = scalp.positions[size_t(guide)];
         }
         DrawnStrand strand = {};
-        strand.root = F4(root.x, root.y, root.z, 0.0f);
         strand.weights = F4(yaw, pitch, 0.0f, 0.0f);
         strand.guide0 = strand.guide1 = strand.guide2 = guide;
-        groom.drawn.push_back(strand);
+        add_drawn(groom, ground, strand, place, index);
     }
 }
 
@@ -242,14 +333,15 @@ static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along
     return segment;
 }
 
-Groom grow(const HairParams& p, const Scalp& authored)
+Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
 {
     const Scalp scalp = refined(authored, p.interpolation_refine);
+    const Shaping shaping = shape_over(p, host, authored, scalp);
+    Ground ground{shaping, varies(host), {}, {}, {}};
     Groom groom;
     groom.nodes = p.strand_nodes;
     groom.guides = int(scalp.positions.size());
     groom.blocks = (groom.guides + LANES - 1) / LANES;
-    groom.longest = p.strand_length;
     groom.center = scalp.center * p.head_scale;
     groom.extent = scalp.extent * p.head_scale;
 
@@ -263,10 +355,6 @@ Groom grow(const HairParams& p, const Scalp& authored)
     for (const glm::vec3& root : scalp.positions)
         groom.farthest = std::max(groom.farthest, glm::length(root * p.head_scale - groom.middle));
 
-    std::vector<glm::vec3> directions;
-    for (int g = 0; g < groom.guides; ++g)
-        directions.push_back(root_direction(p, scalp.normals[size_t(g)], g));
-
     groom.root_position.resize(size_t(groom.blocks) * 3 * LANES);
     groom.root_direction.resize(size_t(groom.blocks) * 3 * LANES);
     groom.segment_length.resize(size_t(groom.blocks) * LANES);
@@ -274,45 +362,55 @@ Groom grow(const HairParams& p, const Scalp& authored)
     const bool waves = waves_are_shape(p);
     if (waves)
         groom.natural_position.resize(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
+    if (ground.varied)
+        groom.bend_factor.resize(size_t(groom.blocks) * LANES);
     for (int s = 0; s < groom.blocks * LANES; ++s)
     {
         const size_t g = size_t(s < groom.guides ? s : 0);
+        const HairParams own = ground.varied ? params_at(shaping, at_vertex(scalp, g)) : p;
+        const glm::vec3 direction = root_direction(shaping, own, int(g));
         for (int axis = 0; axis < 3; ++axis)
         {
             const size_t at = size_t(strand_value(s, 0, axis, 1));
             groom.root_position[at] = scalp.positions[g][axis] * p.head_scale;
-            groom.root_direction[at] = directions[g][axis];
+            groom.root_direction[at] = direction[axis];
         }
         // All segments of a strand are equally long; the one under the scalp does not count towards its length.
-        groom.segment_length[size_t(s)] = p.strand_length / float(groom.nodes - 2);
-        if (!waves)
+        float& segment = groom.segment_length[size_t(s)];
+        segment = own.strand_length / float(groom.nodes - 2);
+        if (waves)
+        {
+            const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = direction;
+            const glm::vec3 outward = scalp.normals[g] - direction * glm::dot(scalp.normals[g], direction);
+            const glm::vec3 side = glm::cross(direction, glm::vec3(0.0f, 1.0f, 0.0f));
+            const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
+            std::vector<glm::dvec3> nodes;
+            segment =
+                float(shape_waves(own, root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
+            for (int k = 0; k < groom.nodes; ++k)
+                for (int axis = 0; axis < 3; ++axis)
+                    groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] =
+                        float(nodes[size_t(k)][axis]);
+        }
+        // The axis of waves counts for their length; the strand is longer.
+        groom.longest = std::max({groom.longest, own.strand_length, segment * float(groom.nodes - 2)});
+        if (ground.varied)
+            groom.bend_factor[size_t(s)] =
+                float(stiffness_over_mass(own, groom.nodes - 2, double(segment * p.strand_spacing)) /
+                      stiffness_over_mass(p, groom.nodes - 2, double(segment * p.strand_spacing)));
+        if (s >= groom.guides)
             continue;
-        const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = directions[g];
-        const glm::vec3 outward = scalp.normals[g] - directions[g] * glm::dot(scalp.normals[g], directions[g]);
-        const glm::vec3 side = glm::cross(directions[g], glm::vec3(0.0f, 1.0f, 0.0f));
-        const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
-        std::vector<glm::dvec3> nodes;
-        groom.segment_length[size_t(s)] =
-            float(shape_waves(p, root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
-        groom.longest = std::max(groom.longest, groom.segment_length[size_t(s)] * float(groom.nodes - 2));
-        for (int k = 0; k < groom.nodes; ++k)
-            for (int axis = 0; axis < 3; ++axis)
-                groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] = float(nodes[size_t(k)][axis]);
+        ground.directions.push_back(direction);
+        ground.lengths.push_back(own.strand_length);
+        ground.sides.push_back(ground.varied ? sides_at(shaping, at_vertex(scalp, g)) : Sides{});
     }
 
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
-    groom.drawn_multi = p.interpolation_strands - single;
+    const int multi = p.interpolation_strands - single;
     groom.drawn.reserve(size_t(p.interpolation_strands));
-    grow_multi(groom, p, scalp, directions, groom.drawn_multi);
-    grow_single(groom, p, scalp, single);
-    for (size_t i = 0; i < groom.drawn.size(); ++i)
-    {
-        DrawnStrand& strand = groom.drawn[i];
-        for (float* c : {&strand.root.x, &strand.root.y, &strand.root.z})
-            *c *= p.head_scale;
-        strand.root.w = 1.0f - p.strand_length_variation * random01(p.interpolation_seed, int(i), kCut);
-        strand.seed = int(random01(p.interpolation_seed, int(i), kStrandSeed) * 0x1p24f);
-    }
+    grow_multi(groom, ground, multi);
+    groom.drawn_multi = int(groom.drawn.size());
+    grow_single(groom, ground, single, multi);
     return groom;
 }
 

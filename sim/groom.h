@@ -26,7 +26,9 @@ struct Groom
     std::vector<int> held;
     float hold = 1.0f;              // of rest_position, that the strands take as their own
     float tip_mass = 0.5f;          // of the last node: it stands for half a segment
+    std::vector<float> bend_factor; // [block][lane], stiffness over what the parameters say; empty: 1
     std::vector<DrawnStrand> drawn; // mixed ones first
+    std::vector<StrandLook> looks;  // of each drawn strand; empty where they are all as the parameters say
     int drawn_multi = 0;
     std::vector<TiedStrand> tied;   // of each mixed strand; empty without ties
     std::vector<Tail> tails;        // of each tie; of no length if no strand comes through
@@ -42,8 +44,9 @@ inline int held_nodes(const Groom& groom, int strand) { return groom.held.empty(
 
 // Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones
 // are spread over the triangles by area, copies equally over the guides. Everything random hangs on
-// params.interpolation_seed. Throws Error where interpolation.refine asks for too many.
-Groom grow(const HairParams& params, const Scalp& scalp);
+// params.interpolation_seed. What varies over the scalp is `host`'s: lengths and stiffness of guides are those at their
+// roots, lengths and looks of drawn strands those at theirs. Throws Error where interpolation.refine asks for too many.
+Groom grow(const HairParams& params, const Scalp& scalp, const HostParams& host = {});
 
 // A vector of values laid out [block][node][axis][lane], as guides' positions are.
 inline glm::dvec3 vector_at(const float* values, int strand, int node, int nodes)
@@ -52,8 +55,8 @@ inline glm::dvec3 vector_at(const float* values, int strand, int node, int nodes
     return {at[0], at[LANES], at[2 * LANES]};
 }
 
-// A strand mixed of three guides, in these shares (whose sum is 1), as grow() mixes them; the root and the rest are
-// left to the caller. `directions` are all guides' root directions.
+// A strand mixed of three guides, in these shares (whose sum is not zero), as grow() mixes them; the root and the rest
+// are left to the caller. `directions` are all guides' root directions.
 DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights);
 
 // A uniform number in [0, 1) that depends on nothing but its arguments. PCG output of a hashed state, O'Neill 2014.

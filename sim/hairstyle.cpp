@@ -1,7 +1,9 @@
 #include "sim/hairstyle.h"
 
 #include "sim/error.h"
+#include "sim/hairstyle_lists.h"
 #include "sim/toml_edit.h"
+#include "sim/toml_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +15,7 @@ namespace coif
 
 namespace fs = std::filesystem;
 
-static std::string place(const fs::path& file, const toml::source_region& region)
-{
-    return fmt::format("{}:{}:{}", file.string(), region.begin.line, region.begin.column);
-}
-
-static const char* type_name(const toml::node& node)
+const char* type_name(const toml::node& node)
 {
     switch (node.type())
     {
@@ -38,12 +35,12 @@ static const char* type_name(const toml::node& node)
     }
 }
 
-static bool read_three(const toml::node& node, double out[3])
+bool read_numbers(const toml::node& node, double* out, size_t count)
 {
     const toml::array* list = node.as_array();
-    if (!list || list->size() != 3)
+    if (!list || list->size() != count)
         return false;
-    for (size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < count; ++i)
     {
         if (!list->get(i)->is_number())
             return false;
@@ -61,7 +58,7 @@ static bool read_hex_color(const std::string& text, double out[3])
     return true;
 }
 
-static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
+void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
     double values[3] = {};
     const auto wrong = [&](const char* wanted)
@@ -79,11 +76,11 @@ static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node
         values[0] = double(*node.value<int64_t>());
         break;
     case Kind::VECTOR:
-        if (!read_three(node, values))
+        if (!read_numbers(node, values, 3))
             throw wrong("three numbers like [0.0, 1.0, 0.0]");
         break;
     case Kind::COLOR:
-        if (!read_three(node, values) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
+        if (!read_numbers(node, values, 3) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
             throw wrong("a colour like \"#8a5a3c\" or three numbers from 0 to 1");
         break;
     case Kind::CHOICE:
@@ -106,74 +103,9 @@ static void read_value(Hairstyle& style, const ParamInfo& info, const toml::node
         return;
     }
     case Kind::LIST:
-        throw wrong("a list of [[collider]] tables");
+        throw wrong(fmt::format("a list of [[{}]] tables", info.group).c_str());
     }
     set_numbers(style.params, info, values);
-}
-
-static Collider read_collider(const fs::path& file, const toml::node& entry)
-{
-    const toml::table* table = entry.as_table();
-    if (!table)
-        throw fail("{}: collider must be written as [[collider]] tables", place(file, entry.source()));
-    Collider collider;
-    bool has_center = false, has_radius = false;
-    for (auto&& [key, value] : *table)
-    {
-        const auto at = [&, &node = value](const std::string& what)
-        { return fail("{}: {}", place(file, node.source()), what); };
-        double v[3] = {};
-        if (key == "center" || key == "to")
-        {
-            const std::string_view name(key.str());
-            if (!read_three(value, v))
-                throw at(fmt::format("collider.{} must be three numbers in metres", name));
-            for (int i = 0; i < 3; ++i)
-                if (!(std::abs(v[i]) <= 100.0))
-                    throw at(fmt::format("collider.{} is {}, but must lie in [-100, 100] m", name, v[i]));
-            if (key == "to")
-                collider.to = glm::vec3(v[0], v[1], v[2]);
-            else
-                collider.center = {v[0], v[1], v[2]};
-            has_center |= key == "center";
-        }
-        else if (key == "radius")
-        {
-            v[0] = value.value<double>().value_or(NAN);
-            if (!value.is_number() || !(v[0] >= 0.001 && v[0] <= 100.0))
-                throw at(value.is_number() ? fmt::format("collider.radius is {}, but must lie in [0.001, 100] m", v[0])
-                                           : fmt::format("collider.radius must be a number, not {}", type_name(value)));
-            collider.radius = float(v[0]);
-            has_radius = true;
-        }
-        else if (key == "on")
-        {
-            const std::string on = value.value<std::string>().value_or("");
-            if (on != "head" && on != "world")
-                throw at("collider.on must be \"head\" or \"world\"");
-            collider.on_head = on == "head";
-        }
-        else
-            throw at(fmt::format("a collider has no '{}'; it has center, radius, on, and to if it is a capsule",
-                                 std::string_view(key.str())));
-    }
-    if (!has_center || !has_radius)
-        throw fail("{}: a collider needs center and radius", place(file, entry.source()));
-    return collider;
-}
-
-static std::vector<Collider> read_colliders(const fs::path& file, const toml::node& node)
-{
-    const toml::array* list = node.as_array();
-    if (!list)
-        throw fail("{}: collider must be written as [[collider]] tables", place(file, node.source()));
-    if (list->size() > MOST_COLLIDERS / 2)
-        throw fail("{}: {} colliders are more than the {} that coif takes", place(file, node.source()), list->size(),
-                   MOST_COLLIDERS / 2);
-    std::vector<Collider> colliders;
-    for (const toml::node& entry : *list)
-        colliders.push_back(read_collider(file, entry));
-    return colliders;
 }
 
 static toml::table parse_toml(const std::string& text, const fs::path& file)
@@ -195,9 +127,9 @@ Hairstyle parse_hairstyle(const std::string& text, const fs::path& file)
     style.text = text;
     for (auto&& [group, node] : document)
     {
-        if (group == "collider")
+        if (const ParamInfo* list = find_param(group.str()); list && list->kind == Kind::LIST)
         {
-            style.host.colliders = read_colliders(file, node);
+            read_list(style, *list, node);
             continue;
         }
         const toml::table* table = node.as_table();
@@ -231,15 +163,16 @@ Hairstyle load_hairstyle(const fs::path& file) { return parse_hairstyle(read_fil
 std::vector<Collider> load_colliders(const fs::path& file)
 {
     const toml::table document = parse_toml(read_file(file, 4 << 20), file);
-    std::vector<Collider> colliders;
+    Hairstyle holder;
+    holder.file = file;
     for (auto&& [key, node] : document)
     {
         if (key != "collider")
             throw fail("{}: expected [[collider]] tables only, found '{}'", place(file, key.source()),
                        std::string_view(key.str()));
-        colliders = read_colliders(file, node);
+        read_list(holder, *find_param("collider"), node);
     }
-    return colliders;
+    return holder.host.colliders;
 }
 
 void assign(Hairstyle& style, const std::string& assignment)
@@ -277,13 +210,13 @@ void assign(Hairstyle& style, const std::string& assignment)
     style.places[path] = "--set " + path;
 }
 
-static std::string float_text(float value)
+std::string float_text(float value)
 {
     const std::string text = fmt::format("{}", value);
     return text.find_first_of(".en") == text.npos ? text + ".0" : text;
 }
 
-static std::string toml_string(const std::string& text)
+std::string toml_string(const std::string& text)
 {
     std::string out = "\"";
     for (const char c : text)
@@ -294,6 +227,14 @@ static std::string toml_string(const std::string& text)
         else
             out += c;
     return out + '"';
+}
+
+std::string list_text(const float* values, size_t count)
+{
+    std::string text;
+    for (size_t i = 0; i < count; ++i)
+        text += (i ? ", " : "") + float_text(values[i]);
+    return "[" + text + "]";
 }
 
 std::string value_text(const Hairstyle& style, const ParamInfo& info)
@@ -328,20 +269,34 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return toml_string(
             *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&style.host) + info.offset));
     case Kind::LIST:
-        return fmt::format("{} of them", style.host.colliders.size());
+        return with_list(style.host, info, [](const auto& list) { return fmt::format("{} of them", list.size()); });
     }
     return {};
 }
 
 bool same_value(const Hairstyle& a, const Hairstyle& b, const ParamInfo& info)
 {
-    return info.kind == Kind::LIST ? a.host.colliders == b.host.colliders : value_text(a, info) == value_text(b, info);
+    if (info.kind != Kind::LIST)
+        return value_text(a, info) == value_text(b, info);
+    return with_list(a.host, info,
+                     [&](const auto& list)
+                     {
+                         using List = std::remove_cvref_t<decltype(list)>;
+                         const char* other = reinterpret_cast<const char*>(&b.host) + info.offset;
+                         return list == *reinterpret_cast<const List*>(other);
+                     });
 }
 
 void copy_value(const Hairstyle& from, Hairstyle& to, const ParamInfo& info)
 {
     if (info.kind == Kind::LIST)
-        to.host.colliders = from.host.colliders;
+        with_list(to.host, info,
+                  [&](auto& list)
+                  {
+                      using List = std::remove_cvref_t<decltype(list)>;
+                      const char* other = reinterpret_cast<const char*>(&from.host) + info.offset;
+                      list = *reinterpret_cast<const List*>(other);
+                  });
     else if (info.kind == Kind::TEXT)
         *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&to.host) + info.offset) =
             *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&from.host) + info.offset);

@@ -1,6 +1,5 @@
 #include "sim/error.h"
-#include "sim/hairstyle.h"
-#include "sim/toml_edit.h"
+#include "sim/hairstyle_lists.h"
 
 #include <fstream>
 #include <sstream>
@@ -99,24 +98,6 @@ fs::path resolve_path(const Hairstyle& style, const std::string& key, const std:
                written, beside.string(), data.string());
 }
 
-static TomlEntry collider_entry(const Collider& collider)
-{
-    Hairstyle text; // borrows the writer of shortest floats
-    const auto number = [&](double value)
-    {
-        text.params.camera_distance = float(value);
-        return value_text(text, *find_param("camera.distance"));
-    };
-    const auto point = [&](glm::vec3 p) { return fmt::format("[{}, {}, {}]", number(p.x), number(p.y), number(p.z)); };
-    TomlEntry entry = {{"center", point(collider.center)}};
-    if (collider.to)
-        entry.push_back({"to", point(*collider.to)});
-    entry.push_back({"radius", number(collider.radius)});
-    if (collider.on_head)
-        entry.push_back({"on", "\"head\""});
-    return entry;
-}
-
 // The style with its relative paths turned from its own folder to the target's.
 static Hairstyle moved(const Hairstyle& style, const fs::path& target)
 {
@@ -149,13 +130,9 @@ std::string hairstyle_text(const Hairstyle& style, const fs::path& target)
         if (info.kind != Kind::LIST && !same_value(wanted, written, info))
             edits.push_back({info.group, info.name, value_text(wanted, info)});
     std::string text = edit_toml(style.text, edits);
-    if (wanted.host.colliders != written.host.colliders)
-    {
-        std::vector<TomlEntry> entries;
-        for (const Collider& collider : wanted.host.colliders)
-            entries.push_back(collider_entry(collider));
-        text = edit_toml_array(text, "collider", entries);
-    }
+    for (const ParamInfo& info : param_table())
+        if (info.kind == Kind::LIST && !same_value(wanted, written, info))
+            text = edit_toml_array(text, info.group, list_entries(wanted.host, info));
     return text;
 }
 

@@ -92,6 +92,8 @@ static std::string checked_obj(const std::string& text, const std::string& name)
             clean += fmt::format("f {} {} {}\n", corners[0], corners[1], corners[2]);
             named.emplace_back(number, std::max({corners[0], corners[1], corners[2]}));
         }
+        else if ((words[0] == "g" || words[0] == "o") && words.size() > 1)
+            clean += fmt::format("g {}\n", words[1].substr(0, 200));
     }
     for (const auto& [line, greatest] : named) // at the end: a face may come before its vertices
         if (greatest > vertices)
@@ -155,8 +157,12 @@ Scalp load_scalp(const std::filesystem::path& file)
         scalp.positions.push_back({v[i], v[i + 1], v[i + 2]});
     for (const tinyobj::shape_t& shape : reader.GetShapes())
         for (size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3)
+        {
             scalp.triangles.push_back({shape.mesh.indices[i].vertex_index, shape.mesh.indices[i + 1].vertex_index,
                                        shape.mesh.indices[i + 2].vertex_index});
+            for (int k = 0; k < 3 && !shape.name.empty(); ++k)
+                scalp.groups[shape.name].push_back(scalp.triangles.back()[k]);
+        }
     glm::vec3 low(INFINITY), high(-INFINITY);
     for (const glm::vec3& p : scalp.positions)
     {
@@ -206,7 +212,10 @@ Scalp refined(const Scalp& scalp, int times)
         {
             const auto [found, fresh] = middles.try_emplace(std::minmax(a, b), unsigned(fine.positions.size()));
             if (fresh)
+            {
                 fine.positions.push_back(0.5f * (fine.positions[a] + fine.positions[b]));
+                fine.between.emplace_back(a, b);
+            }
             return found->second;
         };
         std::vector<glm::uvec3> triangles;

@@ -1,7 +1,10 @@
 #pragma once
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace coif
@@ -18,9 +21,11 @@ struct Mesh
 // A scalp: vertex i carries guide i.
 struct Scalp : Mesh
 {
-    glm::vec3 center{0.0f}; // of the sphere that fits the vertices best, m
-    float radius = 0.0f;    // of that sphere, m
-    float extent = 0.0f;    // longest side of the vertices' bounding box, m
+    glm::vec3 center{0.0f};                              // of the sphere that fits the vertices best, m
+    float radius = 0.0f;                                 // of that sphere, m
+    float extent = 0.0f;                                 // longest side of the vertices' bounding box, m
+    std::map<std::string, std::vector<unsigned>> groups; // of the file: name -> vertices of its triangles
+    std::vector<glm::uvec2> between; // of a refined one: each vertex after the authored ones lies between these two
 };
 
 // An OBJ of triangles; its vertices keep their order. Throws Error with file and line for anything else: polygons,

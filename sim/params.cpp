@@ -162,7 +162,7 @@ void set_numbers(HairParams& params, const ParamInfo& info, const double values[
         memcpy(field, floats, size_t(info.components()) * sizeof(float));
 }
 
-static float linear_of_srgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float linear_of_srgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
 bool waves_are_shape(const HairParams& p)
 {

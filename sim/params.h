@@ -1,6 +1,6 @@
 #pragma once
 #include "kernels/shared.h"
-#include "sim/tie.h"
+#include "sim/lists.h"
 
 #include <glm/vec3.hpp>
 
@@ -14,18 +14,8 @@
 namespace coif
 {
 
-// A sphere or a capsule that hair slides over.
-struct Collider
-{
-    glm::vec3 center{0.0f};           // m, in the head's frame or in the world
-    float radius = 0.05f;             // m
-    bool on_head = false;             // moves with the head
-    std::optional<glm::vec3> to = {}; // a capsule's second end; a sphere has none
-    bool operator==(const Collider&) const = default;
-};
-
 #define COIF_MEMBER_TEXT(group, name, value) std::string group##_##name = value;
-#define COIF_MEMBER_LIST(group, name, value) std::vector<Collider> group##s;
+#define COIF_MEMBER_LIST(group, name, value) std::vector<group##_entry> group##s;
 #define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)
 #define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_MEMBER_##kind(group, name, value)
 
@@ -33,10 +23,8 @@ struct Collider
 struct HostParams
 {
 #include "kernels/params.def"
-    std::vector<Tie> ties;
     bool operator==(const HostParams&) const = default;
 };
-#undef COIF_PARAM
 #undef COIF_HOST
 
 enum class Kind
@@ -90,6 +78,20 @@ struct ParamInfo
     int components() const { return kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
 };
 
+// What `action` gives for the list of `host` that a LIST stands for.
+#define COIF_WITH_TEXT(list)
+#define COIF_WITH_LIST(list)                                                                                           \
+    if (info.group == std::string_view(#list))                                                                         \
+        return action(host.list##s);
+#define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_WITH_##kind(group)
+template <typename Host, typename Action> auto with_list(Host& host, const ParamInfo& info, Action action)
+{
+#include "kernels/params.def"
+    return action(host.colliders); // not reached
+}
+#undef COIF_PARAM
+#undef COIF_HOST
+
 std::span<const ParamInfo> param_table();
 const char* kind_name(Kind kind);
 const char* scope_name(Scope scope);
@@ -119,6 +121,9 @@ void set_numbers(HairParams& params, const ParamInfo& info, const double values[
 // Are the waves that `params` asks for bends of the strands themselves, and not laid on when they are drawn? They are
 // where eight nodes or more make a wave, and the solver knows bends.
 bool waves_are_shape(const HairParams& params);
+
+// Linear light for a component of an sRGB colour (IEC 61966-2-1).
+float linear_of_srgb(float component);
 
 // Radians for degrees, linear for sRGB (IEC 61966-2-1), unit length for directions: what kernels and shaders read.
 HairParams device_params(const HairParams& authored);

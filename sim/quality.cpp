@@ -216,7 +216,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     while (p.interpolation_refine < most &&
            error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > of_guides)
         ++p.interpolation_refine;
-    const Groom groom = grow(p, scalp);
+    const Groom groom = grow(p, scalp, style.host);
     quality.guide_error = error_of_guides(p, scalp, groom.guides);
     note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
     const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");

@@ -164,7 +164,9 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         const Vec told = vector_of(groom.root_direction, s, 0, 1);
         const Vec direction = glm::length(told) > 1e-6 ? glm::normalize(told) : Vec(0.0, 1.0, 0.0); // any will do
         const double rest = std::max(1e-9, double(groom.segment_length[size_t(s)]) * params.strand_spacing);
-        const double stiffness = std::min(stiffness_over_mass(params, nodes - 2, rest), shape.bend_most);
+        const double stiffness = std::min(stiffness_over_mass(params, nodes - 2, rest) *
+                                              (groom.bend_factor.empty() ? 1.0 : double(groom.bend_factor[size_t(s)])),
+                                          shape.bend_most);
         shape.turning_rate = std::max(shape.turning_rate, std::sqrt(stiffness * share));
         const std::vector<Vec> natural = chain(groom.natural_position, s, nodes, root, direction, rest);
         const std::vector<Vec> x = at_rest ? chain(groom.rest_position, s, nodes, root, direction, rest) : natural;

@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/rest_shape.h"
+#include "sim/shaping.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -19,33 +20,41 @@ static std::filesystem::path asset(const Hairstyle& style, const std::string& ke
     return resolve_path(style, key, written, data_folder() / "assets");
 }
 
+// A fault in what the style says is told with the place where the style says it.
+template <typename Action> static auto placed(const Hairstyle& style, const std::string& key, Action action)
+{
+    try
+    {
+        return action();
+    }
+    catch (const Error& e)
+    {
+        const auto at = style.places.find(key);
+        throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
+    }
+}
+
 Assets load_assets(const Hairstyle& style)
 {
     Assets assets;
-    // A fault in what the style names is told with the place where the style names it.
-    const auto placed = [&](const char* key, auto&& action)
-    {
-        try
-        {
-            return action();
-        }
-        catch (const Error& e)
-        {
-            const auto at = style.places.find(key);
-            throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
-        }
-    };
     const auto load = [&](const char* key, const std::string& written, auto&& read)
     {
         const std::filesystem::path file = asset(style, key, written);
-        return placed(key, [&] { return read(file); });
+        return placed(style, key, [&] { return read(file); });
     };
     if (style.host.scalp_mesh.empty())
         throw fail("{}: scalp.mesh must name an OBJ",
                    style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh") : style.name());
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
-        placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+        placed(style, "interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+    for (const ParamInfo& info : param_table())
+        if (info.kind == Kind::LIST)
+            for (size_t i = 0; i < with_list(
+                                       style.host, info, [](const auto& list) { return list.size(); });
+                 ++i)
+                placed(style, fmt::format("{}[{}]", info.group, i),
+                       [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
     if (!style.host.head_spheres.empty())
@@ -125,11 +134,15 @@ TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedG
 
 Groom grown(const Hairstyle& style, Assets& assets)
 {
-    Groom groom = grow(style.params, assets.scalp);
+    Groom groom = grow(style.params, assets.scalp, style.host);
     const std::vector<Tie>& ties = style.host.ties;
-    if (!ties.empty())
-        tie_hair(groom, style.params, assets.scalp, ties, nearest_ties(groom, style.params, ties),
-                 tie_ground(style, assets, head_grid(style, assets)));
+    if (ties.empty())
+        return groom;
+    const TieGround ground = tie_ground(style, assets, head_grid(style, assets));
+    const TieRoots roots = tie_roots(groom, style.params, style.host, assets.scalp);
+    for (size_t i = 0; i < ties.size(); ++i)
+        placed(style, fmt::format("tie[{}]", i), [&] { check_tie(groom, style.params, ties, i, roots, ground); });
+    tie_hair(groom, style.params, assets.scalp, ties, roots, ground);
     return groom;
 }
 
@@ -235,13 +248,14 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
             if (!quality_.rungs.empty())
                 copy_value(style_, style, *find_param(kept));
     bool regrow = reload;
+    const bool varied = varies(style.host); // then each root has its own of what may vary
     for (const ParamInfo& info : param_table())
-        regrow |= info.effect != Effect::LIVE && info.effect != Effect::VIEW && !same_value(style, style_, info);
+        regrow |= !same_value(style, style_, info) && ((info.effect != Effect::LIVE && info.effect != Effect::VIEW) ||
+                                                       (varied && info.scope == Scope::STRAND));
     const bool waves = waves_are_shape(style.params);
     regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
     // Held hair is laid in segments of the length that spacing gives them.
-    regrow |= style.host.ties != style_.host.ties ||
-              (!style.host.ties.empty() && style.params.strand_spacing != style_.params.strand_spacing);
+    regrow |= !style.host.ties.empty() && style.params.strand_spacing != style_.params.strand_spacing;
     bool refall = false;
     if (regrow)
     {

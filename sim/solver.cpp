@@ -96,6 +96,7 @@ void Solver::set_groom(const Groom& groom)
         fresh["root_position"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
         fresh["root_direction"] = allocate(device_, strands * 3 * sizeof(float), "the roots");
         fresh["segment_length"] = allocate(device_, strands * sizeof(float), "the roots");
+        fresh["bend_factor"] = allocate(device_, strands * sizeof(float), "the guides");
         fresh["position"] = allocate(device_, values * sizeof(float), "the guides");
         fresh["velocity"] = allocate(device_, values * sizeof(float), "the guides");
         fresh["resets"] = allocate(device_, strands * sizeof(int), "the guides");
@@ -113,9 +114,15 @@ void Solver::set_groom(const Groom& groom)
         fresh["drawn_position"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
         fresh["drawn_frame"] = allocate(device_, drawn_nodes * sizeof(float4), "the drawn strands");
     }
+    if (groom.looks.size() != groom_.looks.size() || !fresh.contains("looks"))
+        fresh["looks"] = allocate(device_, std::max<size_t>(1, groom.looks.size()) * sizeof(StrandLook), "their looks");
     buffers_ = fresh;
     groom_ = groom;
     changed_ = true;
+    if (groom_.bend_factor.empty())
+        groom_.bend_factor.resize(strands, 1.0f);
+    write(device_, buffer("bend_factor"), groom_.bend_factor);
+    write(device_, buffer("looks"), groom.looks);
     write(device_, buffer("root_position"), groom.root_position);
     write(device_, buffer("root_direction"), groom.root_direction);
     write(device_, buffer("segment_length"), groom.segment_length);

@@ -133,7 +133,8 @@ bool Solver::stands_rigid(const StepInfo& info)
 {
     constexpr double kStiff = 0.1, kWithin = 0.001; // droop number; m
     const double load = std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w));
-    if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff)
+    const double softest = *std::min_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff * softest)
         return false;
     if (!rest_clear_)
     {
@@ -154,7 +155,8 @@ void Solver::simulate_direct(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
-    const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links;
+    const double stiffest = *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links * stiffest;
     const bool contact = !colliders_.empty() || body_.grid;
     if (stands_rigid(info))
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
@@ -262,7 +264,8 @@ void Solver::draw()
                                    int(colliders_.size()), true, body_);
     upload(info);
     const std::string options =
-        fmt::format("{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "");
+        fmt::format("{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
+                    groom_.looks.empty() ? "" : "-D VARIED ");
     const bool braids = std::any_of(groom_.tails.begin(), groom_.tails.end(), [](auto& t) { return t.axis.w > 0.0f; });
     const std::string braided = braids ? "-D BRAIDED " : "";
     if (has_shadow())

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <vector>
 
 namespace coif
 {
@@ -11,6 +12,7 @@ namespace coif
 struct Tie
 {
     std::string name;
+    std::vector<std::string> regions;    // whose hair it gathers; none: that of the whole scalp
     glm::vec3 at{0.0f, 0.07f, -0.105f};  // middle of the ring, in the head's frame, m, before head.scale
     glm::vec3 axis{0.0f, 0.2f, -1.0f};   // the way the hair leaves it; any length but zero
     float radius = 0.012f;               // of the ring, m

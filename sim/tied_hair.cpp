@@ -1,6 +1,7 @@
 #include "sim/tied_hair.h"
 
 #include "sim/error.h"
+#include "sim/shaping.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -440,6 +441,7 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
             triangles[scalp.triangles[i][k]].push_back(i);
 
     std::vector<DrawnStrand> mixed, copies;
+    std::vector<StrandLook> mixed_looks, copied_looks;
     for (size_t i = 0; i < groom.drawn.size(); ++i)
     {
         DrawnStrand strand = groom.drawn[i];
@@ -448,6 +450,8 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
         if (copy && (own < 0 || triangles[size_t(strand.guide0)].empty()))
         {
             copies.push_back(strand);
+            if (!groom.looks.empty())
+                copied_looks.push_back(groom.looks[i]);
             continue;
         }
         if (copy)
@@ -456,7 +460,11 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
         if (!known || !mix_within(strand, tied, roots.drawn[i]))
             mix_within(strand, tied, tied[size_t(strand.guide0)].tie);
         mixed.push_back(strand);
+        if (!groom.looks.empty())
+            mixed_looks.push_back(groom.looks[i]);
     }
+    groom.looks = std::move(mixed_looks);
+    groom.looks.insert(groom.looks.end(), copied_looks.begin(), copied_looks.end());
     groom.drawn_multi = int(mixed.size());
     groom.tied.clear();
     for (DrawnStrand& strand : mixed)
@@ -488,26 +496,54 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
 
 // ---- all of it
 
-TieRoots nearest_ties(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties, float reach)
+TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParams& host, const Scalp& authored)
 {
-    const auto nearest = [&](vec3 root)
+    const std::vector<Tie>& ties = host.ties;
+    const auto nearest = [&](vec3 root, auto&& takes)
     {
         int found = -1;
-        float least = reach;
+        float least = INFINITY;
         for (size_t i = 0; i < ties.size(); ++i)
-            if (const float d = glm::distance(root, ties[i].at * params.head_scale); d < least)
+            if (const float d = glm::distance(root, ties[i].at * params.head_scale); d < least && takes(i))
             {
                 least = d;
                 found = int(i);
             }
         return found;
     };
+    const Scalp scalp = refined(authored, params.interpolation_refine);
+    const Shaping shaping = shape_over(params, host, authored, scalp);
+    const auto gathers = [&](size_t tie, const ScalpPlace& place)
+    {
+        bool in = ties[tie].regions.empty();
+        for (const std::string& name : ties[tie].regions)
+            for (size_t r = 0; r < host.regions.size(); ++r)
+                in |= host.regions[r].name == name && region_weight(shaping, r, place) > 0.5f;
+        return in;
+    };
     TieRoots roots;
     for (int g = 0; g < groom.guides; ++g)
-        roots.guides.push_back(nearest(root_of(groom, g)));
+    {
+        const ScalpPlace place = at_vertex(scalp, size_t(g));
+        roots.guides.push_back(nearest(root_of(groom, g), [&](size_t tie) { return gathers(tie, place); }));
+    }
     for (const DrawnStrand& strand : groom.drawn)
-        roots.drawn.push_back(nearest({strand.root.x, strand.root.y, strand.root.z}));
+    {
+        const int of[3] = {roots.guides[size_t(strand.guide0)], roots.guides[size_t(strand.guide1)],
+                           roots.guides[size_t(strand.guide2)]};
+        const int own = nearest(vec3(strand.root.x, strand.root.y, strand.root.z),
+                                [&](size_t tie) { return std::find(of, of + 3, int(tie)) != of + 3; });
+        roots.drawn.push_back(of[0] < 0 ? -1 : own); // beside loose hair the nearest guide has the say
+    }
     return roots;
+}
+
+void check_tie(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties, size_t tie,
+               const TieRoots& roots, const TieGround& ground)
+{
+    ring_of(ties[tie], groom, params, ground);
+    if (std::find(roots.guides.begin(), roots.guides.end(), int(tie)) == roots.guides.end())
+        throw fail("tie '{}' gathers no hair: no root belongs to it", ties[tie].name);
 }
 
 void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, const std::vector<Tie>& ties,
@@ -524,13 +560,12 @@ void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, con
     std::vector<TiedGuide> tied(size_t(groom.guides));
     for (size_t i = 0; i < ties.size(); ++i)
     {
+        check_tie(groom, params, ties, i, roots, ground);
         const Ring ring = ring_of(ties[i], groom, params, ground);
         std::vector<int> guides;
         for (int g = 0; g < groom.guides; ++g)
             if (roots.guides[size_t(g)] == int(i))
                 guides.push_back(g);
-        if (guides.empty())
-            throw fail("tie '{}' gathers no hair: no root belongs to it", ties[i].name);
         gather(groom, ties[i], int(i), ring, guides, ground, params.strand_spacing, tied);
         groom.tails.push_back(tail_of(ties[i], ring, groom, tied, int(i), params.strand_spacing));
     }

@@ -4,7 +4,6 @@
 #include "sim/groom.h"
 #include "sim/tie.h"
 
-#include <cmath>
 #include <vector>
 
 namespace coif
@@ -17,10 +16,9 @@ struct TieRoots
     std::vector<int> drawn; // of each drawn strand; empty: that of the guide it mostly follows
 };
 
-// Every root to the tie that is nearest to it, or -1 where it is further than `reach` (m) from all of them. A guide
-// stands for its drawn strands, unless it is as near to another tie: those go by their own roots.
-TieRoots nearest_ties(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties,
-                      float reach = INFINITY);
+// Every guide to the nearest of the ties that gather the hair of its region; drawn strands to the nearest of those that
+// their guides belong to, so that what lies between two ties parts in a line. `scalp` as authored.
+TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParams& host, const Scalp& scalp);
 
 // What hair runs over on its way to a ring: the distance grid of the head, or the spheres fixed to it. In the head's
 // frame, m, scaled by head.scale as Solver has them.
@@ -39,6 +37,10 @@ struct TieGround
 // ties that no root belongs to.
 void tie_hair(Groom& groom, const HairParams& params, const Scalp& scalp, const std::vector<Tie>& ties,
               const TieRoots& roots, const TieGround& ground);
+
+// Throws what tie_hair() would for one of the ties.
+void check_tie(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties, size_t tie,
+               const TieRoots& roots, const TieGround& ground);
 
 // Guides that lie in rings as `groom` says and elsewhere go the way they went in `old`, where that had rest shapes:
 // what set_groom() goes on with when a ring is moved.

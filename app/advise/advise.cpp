@@ -137,7 +137,7 @@ Advice advise_on(const Trial& trial, const Hairstyle& style)
     advice.tolerance = trial.tolerance;
     advice.base = style;
     const Assets assets = load_assets(style);
-    advice.guides = grow(style.params, assets.scalp).guides;
+    advice.guides = grow(style.params, assets.scalp, style.host).guides;
     advice.guide_error = error_of_guides(style.params, assets.scalp, advice.guides);
     measure_features(trial, advice);
     go_further(trial, advice);

@@ -237,13 +237,13 @@ std::vector<Row> measure_grid(const Measuring& with)
     const Forces reference = pair_forces(at_rest.nodes, at_rest.info, own_blur);
 
     // Each knob alone, from where the style has it.
-    struct Setting
+    struct Grid
     {
         const char* knob;
         int resolution;
         float blur;
     };
-    std::vector<Setting> settings;
+    std::vector<Grid> settings;
     for (const int resolution :
          with.quick ? std::vector<int>{16, 32, 64, 128} : std::vector<int>{8, 16, 24, 32, 48, 64, 96, 128})
         settings.push_back({"grid resolution", resolution, own_blur});
@@ -252,7 +252,7 @@ std::vector<Row> measure_grid(const Measuring& with)
 
     std::vector<Row> rows;
     Solvers solvers;
-    for (const Setting& setting : settings)
+    for (const Grid& setting : settings)
     {
         with.progress(fmt::format("{}^3 voxels, blurred by {} m", setting.resolution, setting.blur));
         hair.params.grid_resolution = setting.resolution;
