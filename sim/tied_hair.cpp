@@ -356,7 +356,7 @@ static Tail tail_of(const Tie& tie, const Ring& ring, const Groom& groom, const 
         return tail;
     // Half the width is a swing and a radius; the depth keeps plaits apart where they cross.
     const float half = 0.5f * tie.braid_width;
-    tail.plait = 0.46f * half;
+    tail.plait = 0.52f * half;
     tail.axis.w = tie.braid_pitch;
     tail.side.w = half - tail.plait;
     tail.depth = 0.7f * tail.plait;

@@ -173,6 +173,7 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"root_position", filled(device, groom.root_position)},
                 {"root_direction", filled(device, groom.root_direction)},
                 {"held_nodes", filled(device, groom.held.empty() ? std::vector<int>(1) : groom.held)},
+                {"bend_factor", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 1.0f))},
                 {"root_normal", filled(device, to_blocks(state.root_normal, c.strands, 1))},
                 {"segment_length", filled(device, groom.segment_length)},
                 {"multiplier", filled(device, scalars_to_blocks(state.multiplier, c.nodes))},

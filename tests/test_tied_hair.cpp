@@ -80,10 +80,14 @@ TEST_P(TiedMotion, MovesBehindTheRingOnlyAndStaysWhole)
         simulation.solver().take_times();
     }
     EXPECT_TRUE(find_resets(simulation.solver(), resets).empty());
-    if (GetParam() != std::string("still"))
-        EXPECT_GT(tip, 0.02);
-    else
+    if (GetParam() == std::string("still"))
+    {
         EXPECT_LT(tip, 0.005) << "it sags when it is first seen";
+    }
+    else
+    {
+        EXPECT_GT(tip, 0.02);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TiedMotion, testing::Values("still", "shake", "drag", "teleport", "nod"),
@@ -157,7 +161,6 @@ TEST(TiedHair, IsDrawnAboutOneLineInABraid)
     const std::vector<glm::dvec3> guides = nodes_in(test_device(), simulation.solver().buffers().at("position"), groom);
     const Mapped drawn = simulation.solver().drawn_positions(), frames = simulation.solver().drawn_frames();
     const Tail& tail = groom.tails.at(0);
-    const glm::dvec3 tip = guides[size_t((tail.guide + 1) * groom.nodes - 1)];
     std::vector<glm::dvec3> normals;
     for (int s = 0; s < groom.drawn_multi; ++s)
     {
@@ -177,7 +180,6 @@ TEST(TiedHair, IsDrawnAboutOneLineInABraid)
         if (groom.drawn[size_t(s)].root.w > 0.95f)
             normals.push_back({n.x, n.y, n.z});
     }
-    EXPECT_TRUE(std::isfinite(tip.x));
     ASSERT_GT(normals.size(), 10u);
     for (const glm::dvec3& n : normals)
         EXPECT_GT(glm::dot(n, normals[0]), 0.95) << "plaits of its strands would come apart";
