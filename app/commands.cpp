@@ -5,6 +5,7 @@
 #include "app/film.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
+#include "app/morph.h"
 #include "app/report.h"
 #include "app/sequence.h"
 #include "app/sheet.h"
@@ -70,6 +71,19 @@ static int run_save(const Options& options)
     return 0;
 }
 
+static int run_morph(const Options& options, const std::string& to, double at)
+{
+    if (!(at >= 0.0 && at <= 1.0))
+        throw fail("--at {}: expected 0 (the first style) to 1 (the second)", at);
+    Options second = options;
+    second.style = to;
+    Hairstyle style = morphed(load_style(options), load_style(second), at);
+    load_assets(style); // refuses what could not be opened again
+    save_hairstyle(style, options.output);
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
 static int run_shot(const Options& options, const ShotOptions& shot, const SequenceOptions& sequence)
 {
     if (sequence.wanted())
@@ -107,6 +121,7 @@ int run_command(int argc, char** argv)
     {
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
+        command->add_option("--variant", options.variant, "The [variant.NAME] of the style that is to be on");
         command->add_option("--tolerance", options.tolerance,
                             "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
     };
@@ -199,6 +214,16 @@ int run_command(int argc, char** argv)
     CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
     save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
 
+    CLI::App* morph_command = app.add_subcommand("morph", "Make the style that lies between two");
+    std::string morph_to;
+    double morph_at = 0.5;
+    morph_command->add_option("A", options.style, "Hairstyle file, or the name of a preset")->required();
+    morph_command->add_option("B", morph_to, "The other")->required();
+    morph_command->add_option("--at", morph_at, "0 is A, 1 is B; choices and files switch at 0.5")
+        ->capture_default_str();
+    with_sets(morph_command);
+    morph_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
+
     LabOptions hung;
     CLI::App* lab_command =
         with_device(app.add_subcommand("lab", "Move one strand as its root is told, for comparing with references"));
@@ -271,6 +296,8 @@ int run_command(int argc, char** argv)
         return run_keys();
     if (save_command->parsed())
         return run_save(options);
+    if (morph_command->parsed())
+        return run_morph(options, morph_to, morph_at);
     (void)edit_command;
     return run_edit(options);
 }

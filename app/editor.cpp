@@ -1,5 +1,6 @@
 #include "app/editor.h"
 
+#include "app/folders.h"
 #include "app/lettering.h"
 #include "app/sequence.h"
 #include "sim/error.h"
@@ -22,7 +23,7 @@ static constexpr Uint32 kIdleWait = 50;            // ms between looks at a paus
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
 // When a file was last written, as far as can be told.
-static std::filesystem::file_time_type written_at(const std::filesystem::path& file)
+std::filesystem::file_time_type written_at(const std::filesystem::path& file)
 {
     std::error_code error;
     const auto time = std::filesystem::last_write_time(file, error);
@@ -50,6 +51,8 @@ void Editor::guarded(const std::function<void()>& action)
 void Editor::reset_hair()
 {
     guarded([&] { simulation_->reset(); });
+    if (beside_.simulation)
+        guarded([&] { beside_.simulation->reset(); });
     bad_strand_.clear();
 }
 
@@ -63,11 +66,13 @@ void Editor::keep_view()
 }
 
 Editor::Editor(const Options& options)
-    : window_(kWidth, kHeight, Window::SHOWN), device_(open_device(options)), style_(load_style(options))
+    : window_(kWidth, kHeight, Window::SHOWN), device_(open_device(options)), style_(load_style(options)),
+      autosave_(recovery_folder()), device_wish_(options.device)
 {
+    recoveries_ = find_recoveries(recovery_folder());
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // nothing is written that was not asked for
+    ImGui::GetIO().IniFilename = nullptr; // app/settings.h keeps it with the rest
     ImGui::StyleColorsDark();
     ImGui::GetStyle().FrameRounding = 3.0f;
     ImGui::GetStyle().WindowBorderSize = 0.0f;
@@ -85,12 +90,16 @@ Editor::Editor(const Options& options)
     camera_ = camera_of(style_.params);
     apply();
     history_ = begin_history(style_, saved_);
+    take_settings();
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
     last_tick_ = SDL_GetPerformanceCounter();
 }
 
 Editor::~Editor()
 {
+    next_keep_ = 0.0;
+    keep_settings();
+    browse(false);
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplSDL2_Shutdown();
     ImGui::DestroyContext();
@@ -99,36 +108,45 @@ Editor::~Editor()
 void Editor::apply()
 {
     comparing_ = false;
+    note_unsaved(); // before it is tried: it may be what brings the program down
     guarded([&] { simulation_->set_style(style_); });
     style_ = simulation_->style(); // the last good one, if that failed
-    unsaved_ = false;
-    for (const ParamInfo& info : param_table())
-        unsaved_ |= !same_value(style_, saved_, info);
+    note_unsaved();
     SDL_SetWindowTitle(window_.sdl(), fmt::format("{}{} - coif", style_.name(), unsaved_ ? " *" : "").c_str());
     redraw_ = kRedraw;
 }
 
 void Editor::take(const std::filesystem::path& file)
 {
-    held_.what = Grab::NONE;
     guarded(
         [&]
         {
             const Hairstyle fresh = load_hairstyle(file);
-            simulation_->set_style(fresh, true);
-            style_ = saved_ = fresh;
-            known_time_ = written_at(file);
-            simulation_->play(std::nullopt);
-            simulation_->reset();
-            simulation_->settle(kSettle);
-            const glm::dvec3 head = simulation_->solver().head().origin;
-            camera_ = camera_of(style_.params);
-            camera_.target += head;
-            jumped_ = simulation_->jumped();
-            message_.clear();
+            show(fresh, fresh);
+            gone_ = false;
         });
     apply();
     note_edit(history_, style_, saved_, "opened " + style_.name());
+}
+
+// In the place of what was there. Throws Error, and then nothing has changed.
+void Editor::show(const Hairstyle& fresh, const Hairstyle& saved)
+{
+    held_.what = Grab::NONE;
+    simulation_->set_style(fresh, true);
+    style_ = fresh;
+    saved_ = saved;
+    known_time_ = written_at(style_.file);
+    theirs_.reset();
+    simulation_->play(std::nullopt);
+    simulation_->reset();
+    simulation_->settle(kSettle);
+    camera_ = camera_of(style_.params);
+    camera_.target += simulation_->solver().head().origin;
+    jumped_ = simulation_->jumped();
+    message_.clear();
+    if (beside_.simulation)
+        split(true);
 }
 
 void Editor::go_back(size_t edit)
@@ -140,6 +158,9 @@ void Editor::go_back(size_t edit)
     {
         guarded([&] { simulation_->set_style(state.style, true); });
         known_time_ = written_at(state.style.file);
+        theirs_.reset();
+        std::error_code error;
+        gone_ = !std::filesystem::exists(state.style.file, error);
     }
     style_ = state.style;
     saved_ = state.saved;
@@ -173,8 +194,13 @@ void Editor::carry_out(const Intent& intent)
         intent_ = intent;
     else if (const auto* file = std::get_if<std::filesystem::path>(&intent))
         take(*file);
+    else if (const auto* wanted = std::get_if<Recover>(&intent))
+        recover(wanted->which);
     else if (std::holds_alternative<Close>(intent))
+    {
         closed_ = true;
+        autosave_.clear();
+    }
 }
 
 bool Editor::save(const std::filesystem::path& file)
@@ -197,6 +223,9 @@ bool Editor::save(const std::filesystem::path& file)
             saved_ = style_;
             note_save(history_, saved_);
             known_time_ = written_at(file);
+            watch_.know(file);
+            theirs_.reset();
+            gone_ = false;
             simulation_->set_style(style_);
             message_ = "saved " + file.string();
             message_is_error_ = false;
@@ -232,6 +261,8 @@ void Editor::play(const std::string& motion)
         [&]
         {
             simulation_->play(find_motion(motion));
+            if (beside_.simulation)
+                beside_.simulation->play(find_motion(motion));
             motion_ = motion;
             paused_ = false;
         });
@@ -260,6 +291,8 @@ void Editor::advance(double seconds)
         simulation_->step(hand_);
     else if (!paused_)
         stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
+    if (beside_.simulation)
+        follow();
     if (played && !simulation_->playing())
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
@@ -277,6 +310,8 @@ void Editor::note_resets()
     const std::vector<Reset> found = find_resets(simulation_->solver(), resets_seen_);
     if (found.empty())
         return;
+    for (const Reset& reset : found)
+        healed_ += reset.times;
     bad_strand_ = fmt::format("strand {}{} reset in step {}: {}", found.back().strand,
                               found.size() > 1 ? fmt::format(" and {} more", found.size() - 1) : "",
                               simulation_->steps(), likely_cause(found.back(), simulation_->solver().info()));
@@ -293,6 +328,10 @@ bool Editor::frame()
     const double seconds = double(tick - last_tick_) / double(SDL_GetPerformanceFrequency());
     last_tick_ = tick;
     guarded([&] { advance(seconds); });
+    guarded([&] { look_at_files(); });
+    if (browser_.shown && thumbnails_ && thumbnails_->work())
+        redraw_ = std::max(redraw_, kRedraw);
+    keep_settings();
     if (closed_ || redraw_ <= 0)
         return !closed_;
     --redraw_;
@@ -321,8 +360,16 @@ bool Editor::frame()
             if (frames_ % 8 == 1)
                 health_ = measure_health(simulation_->solver(), style_.params, false);
             note_resets();
-            renderer_->show(frame_input(*simulation_, camera_), view_width_ * pixels_wide / std::max(width, 1),
-                            pixels_high);
+            const int wide = picture_width() * pixels_wide / std::max(width, 1);
+            const FrameInput input = frame_input(*simulation_, camera_);
+            renderer_->show(input, wide, pixels_high);
+            legend_.title = input.colors.title;
+            legend_.readings = input.colors.readings;
+            if (!beside_.simulation)
+                return;
+            beside_.simulation->solver().draw();
+            beside_.simulation->solver().take_times();
+            beside_.renderer->show(frame_input(*beside_.simulation, camera_), wide, pixels_high, wide);
         });
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -2,12 +2,17 @@
 #include "app/history.h"
 #include "app/options.h"
 #include "app/panel.h"
+#include "app/recovery.h"
 #include "app/renderer.h"
+#include "app/settings.h"
+#include "app/thumbnails.h"
 #include "app/viewport.h"
+#include "app/watch.h"
 #include "sim/health.h"
 
 #include <SDL.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,6 +23,32 @@ namespace coif
 
 // Opens the editor's window on a hairstyle and runs until it is closed. Returns the exit status.
 int edit(const Options& options);
+
+// The window of presets.
+struct Browser
+{
+    bool shown = false;
+    std::filesystem::path folder, selected;
+    std::vector<std::filesystem::path> files;
+    double listed = -1e9; // s, of the window's clock
+    std::string filter;
+    std::string asked, name;                                          // what a name is asked for, and the name
+    std::map<std::filesystem::path, std::pair<int, GLuint>> pictures; // version and texture
+    std::map<std::string, WidgetPlace> places;                        // of the last frame
+};
+
+// Another style beside the one that is edited, or that it is on the way to.
+struct Beside
+{
+    bool shown = false;                        // its window
+    std::optional<Hairstyle> style;            // B
+    std::optional<Hairstyle> from;             // A, where a morph began
+    float at = 0.0f;                           // of the way from A to B
+    std::unique_ptr<Simulation> simulation;    // B alive, side by side with A
+    std::unique_ptr<Renderer> renderer;        // a renderer keeps what it has sent to the driver
+    double began = 0.0;                        // s of A's time when B's was 0
+    std::map<std::string, WidgetPlace> places; // of the last frame
+};
 
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
 // drive it the same way as edit() does.
@@ -35,6 +66,7 @@ class Editor
     bool save(const std::filesystem::path& file);
     std::filesystem::path screenshot(); // returns the file written, or an empty path
     void play(const std::string& motion);
+    void put_beside(const std::filesystem::path& file); // empty: the style as it was saved
 
     const Simulation& simulation() const { return *simulation_; }
     const Hairstyle& style() const { return style_; }
@@ -45,6 +77,12 @@ class Editor
     double frame_ms() const { return frame_ms_; }
     const std::string& message() const { return message_; }
     const History& history() const { return history_; }
+    const std::vector<Recovery>& recoveries() const { return recoveries_; }
+    const std::map<std::string, WidgetPlace>& file_places() const { return file_places_; } // buttons, as last drawn
+    const StrandColors& legend() const { return legend_; }
+    const Beside& beside() const { return beside_; }
+    const Browser& browser() const { return browser_; }
+    const Hairstyle* theirs() const { return theirs_ ? &*theirs_ : nullptr; }
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
@@ -53,7 +91,11 @@ class Editor
     struct Close
     {
     };
-    using Intent = std::variant<std::monostate, Close, std::filesystem::path>; // what waits for unsaved changes
+    struct Recover
+    {
+        size_t which; // of recoveries_
+    };
+    using Intent = std::variant<std::monostate, Close, std::filesystem::path, Recover>; // waits for unsaved changes
 
     static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
 
@@ -69,6 +111,28 @@ class Editor
     void draw_history();
     void draw_quality(float top);
     void take(const std::filesystem::path& file); // opens without asking
+    void show(const Hairstyle& fresh, const Hairstyle& saved);
+    void recover(size_t which);
+    void look_at_files();
+    void reload_style();
+    void take_theirs(const Hairstyle& theirs);
+    std::vector<std::filesystem::path> watched_files();
+    void note_unsaved(); // and keep it in case of a crash
+    void say(const std::string& message, bool error = false);
+    void draw_files();
+    void draw_beside();
+    void split(bool on);
+    void follow(); // B goes on to A's time
+    void morph(float at);
+    int picture_width() const { return beside_.simulation ? std::max(1, view_width_ / 2) : view_width_; }
+    void draw_legend();
+    void draw_browser();
+    void draw_browser_dialog();
+    void browse(bool on);
+    void change_preset(); // as browser_.asked says
+    bool draw_thumbnail(const std::filesystem::path& file);
+    void take_settings();
+    void keep_settings();
     void reset_hair();
     void note_resets();
     void keep_view();
@@ -86,13 +150,31 @@ class Editor
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
+    Autosave autosave_;
+    std::vector<Recovery> recoveries_; // that are still offered
+    Watch watch_;
+    double next_look_ = 0.0;                             // s, of the window's clock
+    std::map<std::string, std::filesystem::path> named_; // files that the style names, where they were last found
+    std::optional<Hairstyle> theirs_; // the file as another program has written it, where there are unsaved changes
+    bool gone_ = false;               // the style's file has vanished
+    std::map<std::string, WidgetPlace> file_places_;
+    Browser browser_;
+    Beside beside_;
+    StrandColors legend_;                    // without its values
+    std::unique_ptr<Thumbnails> thumbnails_; // once the browser has been open
+    std::string device_wish_;
+    Settings settings_; // as they were last read or kept
+    double next_keep_ = 0.0;
+    bool settings_told_ = false;
     Camera camera_;
     PanelState panel_;
     Grab held_;
-    Pose hand_; // where the mouse has brought the head
+    int held_left_ = 0; // pixel that the picture which is held begins at
+    Pose hand_;         // where the mouse has brought the head
     PassTimes pass_ms_;
     Health health_;
     std::vector<int> resets_seen_;           // of each guide
+    long healed_ = 0;                        // strands, each time
     std::string bad_strand_;                 // the last that was reset: which, when and why
     std::string motion_ = "shake";           // that is played, or was last
     std::string measured_, measured_motion_; // the choice, and the motion, that time_error_ is of

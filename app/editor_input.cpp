@@ -53,6 +53,19 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_c:
         compare(true);
         break;
+    case SDLK_a:
+        beside_.shown = !beside_.shown;
+        if (!beside_.shown)
+            split(false);
+        break;
+    case SDLK_v:
+        style_.params.render_colors =
+            (style_.params.render_colors + 1) % int(param_labels(*find_param("render.colors")).size());
+        apply();
+        break;
+    case SDLK_b:
+        browse(!browser_.shown);
+        break;
     case SDLK_u:
         show_history_ = !show_history_;
         break;
@@ -78,6 +91,8 @@ void Editor::handle_key(const SDL_Keysym& key)
         break;
     case SDLK_ESCAPE:
         simulation_->play(std::nullopt);
+        if (beside_.simulation)
+            beside_.simulation->play(std::nullopt);
         show_help_ = false;
         break;
     default:
@@ -89,12 +104,18 @@ void Editor::handle_mouse(const SDL_Event& event)
 {
     if (event.type == SDL_MOUSEBUTTONDOWN && held_.what == Grab::NONE)
     {
-        const double x = event.button.x, y = event.button.y;
+        const bool of_b = event.button.x >= picture_width();
+        held_left_ = of_b ? picture_width() : 0;
+        const double x = event.button.x - held_left_, y = event.button.y;
         const SDL_Keymod mod = SDL_GetModState();
         if (event.button.button == SDL_BUTTON_LEFT && event.button.clicks == 2)
             frame_head(camera_, *simulation_);
         else if (event.button.button == SDL_BUTTON_LEFT)
-            held_ = grab(*simulation_, camera_, x, y, view_width_, view_height_, mod & (KMOD_CTRL | KMOD_SHIFT));
+        {
+            held_ = grab(*simulation_, camera_, x, y, picture_width(), view_height_, mod & (KMOD_CTRL | KMOD_SHIFT));
+            if (of_b && held_.what == Grab::COLLIDER) // B's own are not for dragging
+                held_.what = Grab::ORBIT;
+        }
         else
             held_.what = event.button.button == SDL_BUTTON_RIGHT ? Grab::ORBIT : Grab::PAN;
     }
@@ -104,7 +125,7 @@ void Editor::handle_mouse(const SDL_Event& event)
         zoom(camera_, event.wheel.y);
     else if (event.type == SDL_MOUSEMOTION)
     {
-        const double x = event.motion.x, y = event.motion.y;
+        const double x = event.motion.x - held_left_, y = event.motion.y;
         if (held_.what == Grab::ORBIT)
             orbit(camera_, event.motion.xrel, event.motion.yrel);
         else if (held_.what == Grab::PAN)
@@ -112,7 +133,8 @@ void Editor::handle_mouse(const SDL_Event& event)
         else if (held_.what == Grab::COLLIDER)
         {
             Collider& collider = style_.host.colliders.at(held_.collider);
-            const glm::vec3 center = dragged_collider(held_, *simulation_, camera_, x, y, view_width_, view_height_);
+            const glm::vec3 center =
+                dragged_collider(held_, *simulation_, camera_, x, y, picture_width(), view_height_);
             if (collider.to)
                 collider.to = glm::clamp(*collider.to + center - collider.center, -100.0f, 100.0f);
             collider.center = center;
@@ -124,7 +146,7 @@ void Editor::handle_mouse(const SDL_Event& event)
             apply();
         }
         else if (held_.what != Grab::NONE)
-            hand_ = dragged_head(held_, camera_, x, y, view_width_, view_height_);
+            hand_ = dragged_head(held_, camera_, x, y, picture_width(), view_height_);
     }
     redraw_ = kRedraw;
 }

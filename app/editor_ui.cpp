@@ -35,6 +35,9 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
+                            "b                     browse presets\n"
+                            "a                     another style beside, morph\n"
+                            "v                     colours: hair, stretch, density, kind\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -58,12 +61,21 @@ void Editor::draw_ui()
         ImGui::BeginChild("parameters");
         if (draw_params_panel(style_, panel_))
             apply();
+        if (!panel_.done.empty())
+            note_edit(history_, style_, saved_, std::exchange(panel_.done, {}));
         ImGui::EndChild();
         ImGui::End();
     }
     draw_status();
     if (show_history_)
         draw_history();
+    if (browser_.shown)
+        draw_browser();
+    if (beside_.shown)
+        draw_beside();
+    if (!legend_.readings.empty())
+        draw_legend();
+    draw_files();
     draw_dialogs();
 }
 
@@ -71,7 +83,7 @@ void Editor::draw_ui()
 void Editor::draw_history()
 {
     const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
-    ImGui::SetNextWindowPos(right_top, ImGuiCond_Appearing, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowPos(right_top, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
     ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.8f);
     if (ImGui::Begin("what was done", &show_history_))
@@ -93,7 +105,7 @@ void Editor::draw_history()
 
 void Editor::draw_tools()
 {
-    ImGui::SetNextItemWidth(150.0f);
+    ImGui::SetNextItemWidth(115.0f);
     if (ImGui::BeginCombo("##open", style_.name().c_str()))
     {
         for (const std::filesystem::path& file : preset_files())
@@ -103,6 +115,11 @@ void Editor::draw_tools()
     }
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("open a preset; or drop a file onto the window");
+    ImGui::SameLine();
+    if (ImGui::Button("Browse"))
+        browse(!browser_.shown);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("b: presets with their pictures");
     ImGui::SameLine();
     if (ImGui::Button(unsaved_ ? "Save *" : "Save") && !style_.file.empty())
         save(style_.file);
@@ -132,6 +149,11 @@ void Editor::draw_tools()
     ImGui::SameLine();
     if (ImGui::Button("Keep camera"))
         keep_view();
+    ImGui::SameLine();
+    if (ImGui::Button("A/B"))
+        beside_.shown = !beside_.shown;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("a: another style beside this one, or on the way to it");
     int key = 0;
     for (const std::string& motion : motion_names())
     {
@@ -210,6 +232,9 @@ void Editor::draw_status()
     ImGui::Text("%d guides of %d nodes, %zu strands drawn", groom.guides, groom.nodes, groom.drawn.size());
     ImGui::Text("stretch %.1f %% at worst, %.2f %% on average", 100.0 * health_.stretch_max,
                 100.0 * health_.stretch_mean);
+    ImGui::Text("%.1f mm deep in head or colliders at worst", 1e3 * health_.penetration_max);
+    if (healed_ > 0)
+        ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "strands healed %ld times", healed_);
     if (!bad_strand_.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
     if (simulation_->solver().asleep())

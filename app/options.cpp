@@ -41,6 +41,7 @@ fs::path find_style(const std::string& name_or_path)
 Hairstyle load_style(const Options& options)
 {
     Hairstyle style = load_hairstyle(find_style(options.style));
+    switch_variant(style, options.variant);
     for (const std::string& set : options.sets)
         assign(style, set);
     std::string tolerance = options.tolerance;

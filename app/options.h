@@ -13,6 +13,7 @@ struct Options
 {
     std::string style;             // file, or the name of a preset; empty: the default preset
     std::vector<std::string> sets; // group.key=value
+    std::string variant;           // [variant.NAME] to be on
     std::string tolerance;         // "1%": quality.tolerance
     std::string device;            // cpu, gpu or a part of a name
     std::string output;

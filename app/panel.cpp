@@ -1,13 +1,16 @@
 #include "app/panel.h"
 
+#include "app/randomise.h"
 #include "sim/error.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-
+#include <cctype>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace coif
 {
@@ -21,10 +24,71 @@ static ImGuiSliderFlags slider_flags(const ParamInfo& info, float usual)
     return ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0);
 }
 
+// A pixel of the mouse is a millimetre, a tenth of a degree, or a share of the range that a hand can hold.
+static float drag_speed(const ParamInfo& info)
+{
+    const std::string_view unit = info.unit;
+    return unit == "m" ? 0.001f : unit == "deg" ? 0.1f : std::min(0.05f, (info.max - info.min) * 0.0005f);
+}
+
+// A curve from root to tip with four points to drag, and its numbers below it to type. A point that the mouse has taken
+// is the mouse's until it lets go, wherever that goes.
+static bool draw_profile(float v[kMostNumbers], const ParamInfo& info, const char* id)
+{
+    constexpr float kRadius = 4.0f; // pixels
+    const float width = ImGui::CalcItemWidth(), height = 3.0f * ImGui::GetFrameHeight();
+    // A wide range has its root drawn, so that the factor 1 does not lie on the floor.
+    const auto height_of = [&](float value)
+    {
+        const float share = (value - info.min) / (info.max - info.min);
+        return info.max > 4.0f ? std::sqrt(share) : share;
+    };
+    const auto value_of = [&](float share)
+    { return info.min + (info.max > 4.0f ? share * share : share) * (info.max - info.min); };
+
+    ImGui::BeginGroup();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float left = corner.x + kRadius, step = (width - 2.0f * kRadius) / 3.0f;
+    const float floor = corner.y + height - kRadius, room = height - 2.0f * kRadius;
+    ImGui::InvisibleButton(id, ImVec2(width, height));
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const int under = std::clamp(int((mouse.x - left) / step + 0.5f), 0, 3);
+    int* taken = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID(id), 0);
+    if (ImGui::IsItemActivated())
+        *taken = under;
+    const bool dragged = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+    bool changed = false;
+    if (dragged)
+    {
+        const float to = value_of(std::clamp((floor - mouse.y) / room, 0.0f, 1.0f));
+        const float rounded = std::clamp(std::round(to * 100.0f) / 100.0f, info.min, info.max);
+        changed = rounded != v[*taken];
+        v[*taken] = rounded;
+    }
+    const auto color = [](ImGuiCol which) { return ImGui::GetColorU32(which); };
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height), color(ImGuiCol_FrameBg),
+                        ImGui::GetStyle().FrameRounding);
+    ImVec2 points[4];
+    for (int i = 0; i < 4; ++i)
+        points[i] = ImVec2(left + float(i) * step, floor - room * height_of(v[i]));
+    draw->AddPolyline(points, 4, color(ImGuiCol_PlotLines), 0, 1.5f);
+    for (int i = 0; i < 4; ++i)
+    {
+        const bool lit = dragged ? i == *taken : hovered && i == under;
+        draw->AddCircleFilled(points[i], kRadius, color(lit ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab));
+    }
+    ImGui::SetNextItemWidth(width);
+    changed |= ImGui::DragFloat4("##numbers", v, (info.max - info.min) * 0.002f, info.min, info.max, "%.2f",
+                                 ImGuiSliderFlags_AlwaysClamp);
+    ImGui::EndGroup();
+    return changed;
+}
+
 static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
 {
     static const Hairstyle defaults;
-    float v[3] = {}, usual[3] = {};
+    float v[kMostNumbers] = {}, usual[kMostNumbers] = {};
     get_numbers(style.params, info, v);
     get_numbers(defaults.params, info, usual);
     bool changed = false;
@@ -58,8 +122,10 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
         break;
     }
     case Kind::VECTOR:
-        changed = ImGui::DragFloat3(id, v, (info.max - info.min) * 0.0005f, info.min, info.max, "%.3g",
-                                    ImGuiSliderFlags_AlwaysClamp);
+        changed = ImGui::DragFloat3(id, v, drag_speed(info), info.min, info.max, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+        break;
+    case Kind::PROFILE:
+        changed = draw_profile(v, info, id);
         break;
     case Kind::COLOR:
         changed = ImGui::ColorEdit3(id, v);
@@ -69,8 +135,8 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
     }
     if (changed)
     {
-        double values[3];
-        for (int i = 0; i < 3; ++i)
+        double values[kMostNumbers];
+        for (int i = 0; i < info.components(); ++i)
             values[i] = std::clamp(v[i], info.min, info.max);
         set_numbers(style.params, info, values);
     }
@@ -129,23 +195,114 @@ static bool draw_colliders(std::vector<Collider>& colliders)
     return changed;
 }
 
+// A padlock: closed, or open and faint.
+static bool draw_lock(bool locked)
+{
+    const float height = ImGui::GetFrameHeight(), side = ImGui::GetFontSize() * 0.62f;
+    const bool pressed = ImGui::InvisibleButton("lock", ImVec2(height * 0.8f, height));
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const bool hovered = ImGui::IsItemHovered();
+    const ImU32 color = ImGui::GetColorU32(hovered  ? ImGuiCol_Text
+                                           : locked ? ImGuiCol_CheckMark
+                                                    : ImGuiCol_TextDisabled);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 middle(0.5f * (low.x + high.x), 0.5f * (low.y + high.y) + 0.15f * side);
+    draw.AddRectFilled(ImVec2(middle.x - 0.5f * side, middle.y), ImVec2(middle.x + 0.5f * side, middle.y + 0.6f * side),
+                       color, 1.5f);
+    const float aside = locked ? 0.0f : 0.35f * side;
+    draw.PathArcTo(ImVec2(middle.x + aside, middle.y - 0.1f * side), 0.3f * side, std::numbers::pi_v<float>,
+                   2.0f * std::numbers::pi_v<float>, 8);
+    draw.PathLineTo(ImVec2(middle.x + aside + 0.3f * side, middle.y));
+    draw.PathStroke(color, 0, 1.5f);
+    if (hovered)
+        ImGui::SetTooltip("%s", locked ? "locked: chance leaves it alone" : "lock it against chance");
+    return pressed;
+}
+
+static bool contains(const std::string& text, const char* part)
+{
+    const auto same = [](char a, char b)
+    { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+    return std::search(text.begin(), text.end(), part, part + strlen(part), same) != text.end();
+}
+
+// Throws the dice: values within the locks, about where they are now.
+static bool draw_chance(Hairstyle& style, PanelState& state)
+{
+    const bool thrown = ImGui::Button("Randomise");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    state.places["randomise"] = {low.x, low.y, high.x, high.y};
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("draws what shapes and colours the hair anew, about where it is now;\n"
+                          "the padlock behind a value, or behind a group by its right button, keeps it as it is");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(100.0f);
+    if (ImGui::InputInt("seed", &state.seed))
+        state.seed = std::max(state.seed, 0);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("of the next throw: it goes up by one with each");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - ImGui::GetStyle().ItemInnerSpacing.x);
+    float percent = 100.0f * state.amount;
+    if (ImGui::SliderFloat("by", &percent, 1.0f, 100.0f, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
+        state.amount = 0.01f * percent;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("how far a value may go: this much of its slider");
+    if (!thrown)
+        return false;
+    style = randomised(style, state.seed, double(state.amount), state.locked);
+    state.done = fmt::format("randomise, seed {}", state.seed++);
+    return true;
+}
+
+// What a tooltip says of the values that a parameter may have.
+static std::string range_text(const ParamInfo& info, const Hairstyle& defaults)
+{
+    if (info.kind == Kind::LIST)
+        return {};
+    std::string text;
+    if (info.kind == Kind::CHOICE)
+        text = fmt::format("one of {}", fmt::join(param_labels(info), ", "));
+    else if (!info.on_host() && info.kind != Kind::COLOR)
+        text = fmt::format("{} to {}{}{}", info.min, info.max, *info.unit ? " " : "", info.unit);
+    return fmt::format("{}{}{} by default", text, text.empty() ? "" : "; ", value_text(defaults, info));
+}
+
 bool draw_params_panel(Hairstyle& style, PanelState& state)
 {
     static const Hairstyle defaults;
-    bool changed = false, open = false;
+    bool changed = false, open = false, found = false;
     const char* group = "";
     state.places.clear();
     ImGui::SetNextItemWidth(-1.0f);
-    ImGui::InputTextWithHint("##filter", "find a parameter", state.filter, sizeof state.filter);
+    ImGui::InputTextWithHint("##filter", "find a parameter, by its name or what it does", state.filter,
+                             sizeof state.filter);
+    changed |= draw_chance(style, state);
+    const float lock_width = ImGui::GetFrameHeight() * 0.8f;
     for (const ParamInfo& info : param_table())
     {
         const std::string path = info.path();
-        if (*state.filter && path.find(state.filter) == path.npos)
+        if (*state.filter && !contains(path, state.filter) && !contains(info.help, state.filter))
             continue;
+        found = true;
         if (strcmp(group, info.group))
         {
             group = info.group;
-            open = ImGui::CollapsingHeader(group, ImGuiTreeNodeFlags_DefaultOpen);
+            const bool was_open = *state.filter || !state.folded.contains(group); // what is looked for is shown
+            ImGui::SetNextItemOpen(was_open);
+            open = ImGui::CollapsingHeader(group);
+            const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+            state.places[std::string("group ") + group] = {low.x, low.y, high.x, high.y};
+            if (open != was_open && !*state.filter)
+                open ? void(state.folded.erase(group)) : void(state.folded.insert(group));
+            if (ImGui::BeginPopupContextItem())
+            {
+                const bool lock = ImGui::MenuItem("lock all against chance"), unlock = ImGui::MenuItem("unlock all");
+                for (const ParamInfo& other : param_table())
+                    if ((lock || unlock) && !strcmp(other.group, group))
+                        lock ? void(state.locked.insert(other.path())) : void(state.locked.erase(other.path()));
+                ImGui::EndPopup();
+            }
         }
         if (!open)
             continue;
@@ -183,7 +340,21 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         ImGui::BeginDisabled(unread);
         ImGui::TextColored(differs ? kChanged : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s", info.name);
         ImGui::EndDisabled();
-        if (hovered || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        const bool name_hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
+        if (is_left_to_chance(info, style.params))
+        {
+            const float right = ImGui::GetWindowContentRegionMax().x, top = low.y;
+            const bool locked = state.locked.contains(path);
+            const ImVec2 row_low(low.x, top), row_high(ImGui::GetWindowPos().x + right, high.y);
+            if (locked || ImGui::IsMouseHoveringRect(row_low, row_high))
+            {
+                ImGui::SameLine(right - lock_width);
+                if (draw_lock(locked))
+                    locked ? void(state.locked.erase(path)) : void(state.locked.insert(path));
+                state.places[path + " lock"] = {row_high.x - lock_width, top, row_high.x, high.y};
+            }
+        }
+        if (hovered || name_hovered)
         {
             ImGui::BeginTooltip();
             ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
@@ -191,14 +362,20 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             if (unread)
                 ImGui::TextColored(kChanged, "%s",
                                    fmt::format("Only the {} solver reads this.", only_reader(info)).c_str());
-            if (!info.on_host() && info.kind != Kind::CHOICE && info.kind != Kind::COLOR)
-                ImGui::TextDisabled(
-                    "%s", fmt::format("{} to {} {}; ctrl-click to type", info.min, info.max, info.unit).c_str());
+            ImGui::TextDisabled("%s", range_text(info, defaults).c_str());
+            if (info.kind == Kind::FLOAT || info.kind == Kind::INT)
+                ImGui::TextDisabled("ctrl-click to type");
+            else if (info.kind == Kind::VECTOR)
+                ImGui::TextDisabled("drag: alt is finer, shift coarser; double click to type");
+            else if (info.kind == Kind::TEXT)
+                ImGui::TextDisabled("taken with the return key");
             ImGui::PopTextWrapPos();
             ImGui::EndTooltip();
         }
         ImGui::PopID();
     }
+    if (!found)
+        ImGui::TextDisabled("no parameter has that in its name or help");
     return changed;
 }
 

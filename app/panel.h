@@ -2,6 +2,7 @@
 #include "sim/hairstyle.h"
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace coif
@@ -16,12 +17,17 @@ struct WidgetPlace
 struct PanelState
 {
     std::map<std::string, WidgetPlace> places; // of the last frame, by path
-    char filter[64] = {};                      // shows only what contains it
+    char filter[64] = {};                      // shows only what has it in its name or its help
+    std::set<std::string> folded;              // groups
+    std::set<std::string> locked;              // parameters that chance leaves alone, by path
+    int seed = 1;                              // of the next throw
+    float amount = 0.3f;                       // how far it goes: a share of the sliders
+    std::string done;                          // what the last change was, where it has a name of its own
 };
 
 // One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the
 // default is marked and has a button that takes it back; what the chosen solver does not read is greyed and says so.
-// True when something changed; the values lie in their ranges.
+// Above them the search and the throw of the dice. True when something changed; the values lie in their ranges.
 bool draw_params_panel(Hairstyle& style, PanelState& state);
 
 } // namespace coif

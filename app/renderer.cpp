@@ -77,6 +77,7 @@ FrameInput frame_input(const Simulation& simulation, const Camera& camera)
     frame.optical_depth = solver.optical_depth();
     frame.params = simulation.params();
     frame.camera = camera;
+    frame.colors = strand_colors(simulation, frame.drawn_positions, frame.guide_positions);
     return frame;
 }
 
@@ -103,9 +104,9 @@ static void attribute(GLuint index, GLint size, GLsizei stride, size_t offset)
 Renderer::Renderer(const std::filesystem::path& shader_folder)
     : shader_folder_(shader_folder), programs_(std::make_unique<Programs>(shader_folder))
 {
-    for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &index_buffer_,
-                           &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_, &guide_buffer_,
-                           &ring_buffer_, &ring_indices_, &braid_buffer_})
+    for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_,
+                           &index_buffer_, &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_,
+                           &guide_buffer_, &ring_buffer_, &ring_indices_, &braid_buffer_})
         *buffer = make_buffer();
     for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &guide_array_, &empty_array_})
         *array = make_array();
@@ -185,6 +186,24 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+
+    std::vector<glm::vec3> ramp;
+    for (int i = 0; i < 64; ++i)
+        ramp.push_back(ramp_color((float(i) + 0.5f) / 64.0f));
+    glGenTextures(1, &ramp_texture_);
+    glBindTexture(GL_TEXTURE_1D, ramp_texture_);
+    glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB16F, GLsizei(ramp.size()), 0, GL_RGB, GL_FLOAT, ramp.data());
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+
+    const int nobody = 0;
+    glGenBuffers(1, &leader_buffer_);
+    glBindBuffer(GL_TEXTURE_BUFFER, leader_buffer_);
+    glBufferData(GL_TEXTURE_BUFFER, sizeof nobody, &nobody, GL_STATIC_DRAW);
+    glGenTextures(1, &leader_texture_);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32I, leader_buffer_);
 }
 
 Renderer::~Renderer()
@@ -196,13 +215,14 @@ Renderer::~Renderer()
         glDeleteRenderbuffers(1, &target->depth);
         glDeleteTextures(1, &target->texture);
     }
-    for (GLuint buffer :
-         {frame_block_, params_block_, position_buffer_, frame_buffer_, index_buffer_, mesh_buffer_, mesh_indices_,
-          sphere_buffer_, sphere_indices_, guide_buffer_, ring_buffer_, ring_indices_, braid_buffer_})
+    for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
+                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_,
+                          ring_buffer_, ring_indices_, braid_buffer_})
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, braid_texture_})
+    for (GLuint texture :
+         {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_, braid_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -296,9 +316,15 @@ void Renderer::draw_strands(const FrameInput& frame)
     glUniform1i(program.uniform("looks"), 1);
     glUniform1i(program.uniform("varied"), !frame.simulation->solver().groom().looks.empty());
     glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_1D, ramp_texture_);
+    glUniform1i(program.uniform("ramp"), 2);
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
+    glUniform1i(program.uniform("leaders"), 3);
+    glActiveTexture(GL_TEXTURE4);
     glBindTexture(GL_TEXTURE_BUFFER, braid_texture_);
+    glUniform1i(program.uniform("braids"), 4);
     glActiveTexture(GL_TEXTURE0);
-    glUniform1i(program.uniform("braids"), 2);
     glUniform1i(program.uniform("braided"), braided_);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);
@@ -436,11 +462,12 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
     return sum_.texture;
 }
 
-void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part)
+void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part, int left)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, part.width, part.height);
+    glViewport(left, 0, part.width, part.height);
     glUseProgram(programs_->show.id());
+    glUniform1i(programs_->show.uniform("left"), left);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture);
     glUniform1i(programs_->show.uniform("picture"), 0);
@@ -448,11 +475,11 @@ void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::show(const FrameInput& frame, int width, int height)
+void Renderer::show(const FrameInput& frame, int width, int height, int left)
 {
     upload(frame);
     const Part all = {0, 0, width, height};
-    resolve(accumulate(frame, width, height, all), 0, all);
+    resolve(accumulate(frame, width, height, all), 0, all, left);
 }
 
 Image Renderer::picture(const FrameInput& frame, int width, int height)

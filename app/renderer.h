@@ -1,6 +1,7 @@
 #pragma once
 #include "app/gl.h"
 #include "app/image.h"
+#include "app/strand_colors.h"
 #include "sim/simulation.h"
 
 #include <glm/mat4x4.hpp>
@@ -33,6 +34,7 @@ struct FrameInput
     Mapped drawn_positions, drawn_frames, guide_positions, optical_depth;
     HairParams params; // as authored
     Camera camera;
+    StrandColors colors;      // instead of the hair's own, where render.colors asks for them
     bool transparent = false; // no backdrop: alpha instead
     int samples = 1;          // jittered pictures that are averaged
 
@@ -49,8 +51,8 @@ class Renderer
     explicit Renderer(const std::filesystem::path& shader_folder);
     ~Renderer();
 
-    // Draws into the current window's own framebuffer, at its size in pixels.
-    void show(const FrameInput& frame, int width, int height);
+    // Draws into the current window's own framebuffer, from its `left` pixel on and as wide and high as said.
+    void show(const FrameInput& frame, int width, int height, int left = 0);
     // Draws apart from any window. At most 8192 x 8192; large pictures are put together of tiles.
     Image picture(const FrameInput& frame, int width, int height);
 
@@ -76,6 +78,7 @@ class Renderer
     void upload_braids(const FrameInput& frame);
     void make_rings();
     void upload_looks(const std::vector<StrandLook>& looks);
+    void upload_colors(const FrameInput& frame);
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
     void draw_solids(const FrameInput& frame);
@@ -84,20 +87,21 @@ class Renderer
     void draw_guides(const FrameInput& frame);
     // All samples of a part, averaged. Returns the texture that holds them.
     GLuint accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
-    void resolve(GLuint texture, GLuint framebuffer, Part part);
+    void resolve(GLuint texture, GLuint framebuffer, Part part, int left = 0);
     void prepare(Target& target, int width, int height, int samples, GLenum format, bool with_depth);
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
     Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
     GLuint frame_block_ = 0, params_block_ = 0;
-    GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, index_buffer_ = 0;
+    GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
     GLint braided_ = 0; // strands that may be
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
-    GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0;
+    GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
+    GLuint leader_texture_ = 0, leader_buffer_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
     GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset

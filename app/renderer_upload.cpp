@@ -145,11 +145,13 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
     const auto turned = [&](const float4& row)
     { return row.x * groom.center.x + row.y * groom.center.y + row.z * groom.center.z; };
     const glm::vec3 center(turned(info.head_row0), turned(info.head_row1), turned(info.head_row2));
-    // Room for the waves and for the curve that bulges between the nodes.
-    float waves = frame.params.wave_normal_amplitude + frame.params.wave_binormal_amplitude;
+    // Room for what is laid on and for the curve that bulges between the nodes.
+    const HairParams& params = frame.params;
+    float laid_on =
+        params.wave_normal_amplitude + params.wave_binormal_amplitude + params.curl_radius + params.frizz_amount;
     for (const StrandLook& look : groom.looks)
-        waves = std::max(waves, look.wave.x + look.wave.z);
-    const float radius = enclosed_ * frame.params.head_scale - waves - 0.005f;
+        laid_on = std::max(laid_on, look.wave.x + look.wave.z + look.own.y + look.own.z);
+    const float radius = enclosed_ * params.head_scale - laid_on * most_of(params.wave_along) - 0.005f;
     const auto hidden = [&](unsigned s, unsigned k)
     {
         const float4 at = p[s * nodes + k];
@@ -189,6 +191,24 @@ void Renderer::upload_looks(const std::vector<StrandLook>& looks)
                  GL_FLOAT, rows.data());
 }
 
+// One value a drawn node, or, where the hair has its own colours, none at all.
+void Renderer::upload_colors(const FrameInput& frame)
+{
+    constexpr GLuint kValue = 4; // as ShaderProgram binds it
+    glBindVertexArray(strand_array_);
+    if (frame.colors.value.empty())
+    {
+        glDisableVertexAttribArray(kValue);
+        glVertexAttrib1f(kValue, -1.0f);
+        return;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, color_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.colors.value.size() * sizeof(float)), frame.colors.value.data(),
+                 GL_STREAM_DRAW);
+    glEnableVertexAttribArray(kValue);
+    glVertexAttribPointer(kValue, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
 void Renderer::upload(const FrameInput& frame)
 {
     const HairParams params = device_params(frame.params);
@@ -212,6 +232,15 @@ void Renderer::upload(const FrameInput& frame)
         glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, resolution, resolution, resolution, GL_RED, GL_FLOAT, depths);
     depth_resolution_ = resolution;
 
+    if (params.curl_radius > 0.0f && has_clumps(params))
+    {
+        std::vector<int> leaders;
+        for (const DrawnStrand& strand : frame.simulation->solver().groom().drawn)
+            leaders.push_back(strand.leader);
+        glBindBuffer(GL_TEXTURE_BUFFER, leader_buffer_);
+        glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(leaders.size() * sizeof(int)), leaders.data(), GL_STREAM_DRAW);
+    }
+
     upload_mesh(frame);
     upload_braids(frame);
     if (params.render_show != 1)
@@ -223,6 +252,7 @@ void Renderer::upload(const FrameInput& frame)
         glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_frames.bytes()), frame.drawn_frames.as<float>(),
                      GL_STREAM_DRAW);
+        upload_colors(frame);
         upload_order(frame, glm::vec3(frame.camera.position() - frame.simulation->solver().head().origin),
                      glm::vec3(glm::normalize(frame.camera.target - frame.camera.position())));
     }

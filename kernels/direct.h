@@ -6,6 +6,7 @@
 // a float holds the small difference, not the large sum.
 #ifndef COIF_DIRECT_H
 #define COIF_DIRECT_H
+#include "curve.h"
 #include "drawn_lanes.h"
 #include "held.h"
 
@@ -93,13 +94,14 @@ typedef struct Factor
     real inverse_pivot[NODES], lower1[NODES], lower2[NODES];
 } Factor;
 
-// Share of the stiffness at the element about node e: it fades by exp(-attenuation) from root to tip.
-static inline void element_weights(float attenuation, held_count held, lane_share* weight)
+// Share of the stiffness at the element about node e: it fades by exp(-attenuation) from root to tip, and follows a
+// profile.
+static inline void element_weights(float attenuation, float4 profile, held_count held, lane_share* weight)
 {
     weight[0] = 0.0f;
     for (int e = 1; e + 1 < NODES; ++e)
-        weight[e] =
-            HELD_SHARE(e == held - 1, 2.0f, 1.0f) * exp(-attenuation * (float)(e - 1) / (float)(NODES - 2));
+        weight[e] = HELD_SHARE(e == held - 1, 2.0f, 1.0f) * exp(-attenuation * (float)(e - 1) / (float)(NODES - 2)) *
+                    profile_at(profile, (float)(e - 1) / (float)(NODES - 2));
     weight[NODES - 1] = 0.0f;
 }
 

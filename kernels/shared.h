@@ -10,6 +10,7 @@
 #define COIF_TYPE_CHOICE int
 #define COIF_TYPE_VECTOR float4
 #define COIF_TYPE_COLOR float4
+#define COIF_TYPE_PROFILE float4
 #define COIF_HOST(group, kind, name, value, scope, effect, help)
 
 #ifdef __cplusplus
@@ -151,9 +152,10 @@ static inline int strand_value(int strand, int node, int axis, int nodes)
 typedef struct DrawnStrand
 {
     float4 root;    // on the scalp, in the head's frame, m; w: share of the guides' length at which it is cut
-    float4 weights; // of the three guides; w unused. For a copy: the two angles (rad) that turn it
+    float4 weights; // of the three guides, or the two angles (rad) that turn a copy; w: m on along its leader's way
     int guide0, guide1, guide2;
-    int seed; // of what the kernels draw at random for this strand
+    int seed;   // of what the kernels draw at random for this strand
+    int leader; // the drawn strand that its clump gathers about; one that leads, or is in no clump, has itself
 } DrawnStrand;
 
 // What of a drawn strand's look varies over the scalp. LOOK_TEXELS of these rows make one.
@@ -163,7 +165,7 @@ typedef struct StrandLook
     float4 root_color; // linear; w: width, m
     float4 tip_color;  // linear; w: opacity
     float4 wave;       // along the normal: amplitude (m), frequency (1/m); along the binormal the same
-    float4 own;        // x: seed
+    float4 own;        // seed; radius of its curl, frizz (m); w unused
 } StrandLook;
 // What ties make of a drawn strand (sim/tied_hair.h), beside its DrawnStrand.
 typedef struct TiedStrand

@@ -129,7 +129,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                  LANES_LOAD(bend_factor + strand),
              (real)(info->bend_most));
     lane_share weight[NODES];
-    element_weights(params->bending_attenuation, held, weight);
+    element_weights(params->bending_attenuation, params->bending_along, held, weight);
     Factor factor;
     factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass, held);
 #endif

@@ -1,7 +1,7 @@
-// The curve that is drawn through a strand's nodes: smoothing, waves, and what differs from strand to strand. Read by
-// OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those names), so that the two never
-// hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more. No local is const, which in
-// GLSL 1.50 asks for a constant expression.
+// The curve that is drawn through a strand's nodes: smoothing, what is laid on it, profiles, and what differs from
+// strand to strand. Read by OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those
+// names), so that the two never hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more.
+// No local is const, which in GLSL 1.50 asks for a constant expression.
 #ifndef COIF_STRAND_CURVE_H
 #define COIF_STRAND_CURVE_H
 
@@ -26,6 +26,16 @@ CURVE_FUNCTION float4 curve_weights(int curve, float t)
         return FLOAT4(-t3 + 2.0f * t2 - t, t3 - 2.0f * t2 + 1.0f, -t3 + t2 + t, t3 - t2);
     return FLOAT4(-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
                   0.5f * t3 - 0.5f * t2);
+}
+
+// A profile's four numbers stand at 0, 1/3, 2/3 and 1 of the strand, with straight lines between them. `along` is 0 at
+// the root and 1 at the tip.
+CURVE_FUNCTION float profile_at(float4 profile, float along)
+{
+    float t = 3.0f * along;
+    return profile.x + (profile.y - profile.x) * clamp(t, 0.0f, 1.0f) +
+           (profile.z - profile.y) * clamp(t - 1.0f, 0.0f, 1.0f) +
+           (profile.w - profile.z) * clamp(t - 2.0f, 0.0f, 1.0f);
 }
 
 // The waves' table (a 1-D texture for GLSL) holds this many waves, each a little different; see sim/wave.cpp.
@@ -83,6 +93,15 @@ CURVE_FUNCTION float strand_random(int seed, int purpose)
 #define RANDOM_WAVE_SHIFT 2
 #define RANDOM_WAVE_PLACE 3
 #define RANDOM_LAYER 4
+#define RANDOM_CURL_PHASE 5
+#define RANDOM_CURL_TOGETHER 6
+#define RANDOM_CURL_VARIATION 7
+#define RANDOM_CURL_HAND 8
+#define RANDOM_FRIZZ 9
+#define RANDOM_FRIZZ_SHIFT 10
+#define RANDOM_CLUMP 11
+#define RANDOM_FLYAWAY 12      // and six more
+#define RANDOM_FRIZZ_FIRST 256 // and upwards and downwards: two for each turn of mind
 
 // Where in the table, in whole tables, a strand's wave is at `distance` (m) from the root. With no randomness all
 // strands wave in step; the more, the further apart their phases and the places of the table that they use.
@@ -91,6 +110,45 @@ CURVE_FUNCTION float wave_place(int seed, float distance, float frequency, float
     float shift = randomness * strand_random(seed, RANDOM_WAVE_SHIFT);
     float place = randomness > 0.0f ? floor(strand_random(seed, RANDOM_WAVE_PLACE) * 32.0f) : 0.0f;
     return (distance * frequency + shift + place) * (1.0f / 32.0f);
+}
+
+#define CURL_LEFT 1
+#define CURL_BOTH 2
+
+// A helix of radius 1 across the strand at `distance` (m) from the root: along the normal, along the binormal. It
+// begins `begin` turns on. What varies, varies with the seed `together`: the strand's, or that of all strands of a
+// clump; half as much as the radius does the pitch (m).
+CURVE_FUNCTION float4 curl_at(int together, float begin, float distance, float pitch, float variation, int hand)
+{
+    float less = variation * strand_random(together, RANDOM_CURL_VARIATION);
+    float turns = distance / (pitch * (1.0f - 0.5f * less));
+    bool left = hand == CURL_BOTH ? strand_random(together, RANDOM_CURL_HAND) < 0.5f : hand == CURL_LEFT;
+    turns = begin + (left ? -turns : turns);
+    float angle = 6.28318531f * (turns - floor(turns));
+    return FLOAT4((1.0f - less) * cos(angle), (1.0f - less) * sin(angle), 0.0f, 0.0f);
+}
+
+// Noise between -1 and 1 that takes a random value at each whole number and goes smoothly from one to the next.
+CURVE_FUNCTION float wandering(int seed, int purpose, float place)
+{
+    float cell = floor(place), t = place - cell;
+    int at = purpose + 2 * TO_INT(cell);
+    float a = strand_random(seed, at), b = strand_random(seed, at + 2);
+    return 2.0f * (a + (b - a) * t * t * (3.0f - 2.0f * t)) - 1.0f;
+}
+
+// How far frizz has set in: at once, but from nothing, and no further at the tip.
+CURVE_FUNCTION float frizz_onset(float along) { return along * (2.0f - along); }
+
+// Frizz of size 1 at most, as curl_at. Most strands have little of it and some all, or it would be a blur.
+CURVE_FUNCTION float4 frizz_at(int seed, float distance, float frequency)
+{
+    float most = strand_random(seed, RANDOM_FRIZZ);
+    float place = distance * frequency + strand_random(seed, RANDOM_FRIZZ_SHIFT);
+    float own = 0.70710678f * (0.2f + 0.8f * most * most);
+    // Each turns while the other goes straight on.
+    return FLOAT4(own * wandering(seed, RANDOM_FRIZZ_FIRST, place),
+                  own * wandering(seed, RANDOM_FRIZZ_FIRST + 1, place + 0.5f), 0.0f, 0.0f);
 }
 
 #endif

@@ -4,7 +4,8 @@
 // four nodes only and could not.
 //
 // At the root the normal points away from the head, as far as the strand's direction lets it. Work-item: WIDTH strands.
-// w holds the strand's length from the root on, m, for the waves' phase.
+// w holds the strand's length from the root on, m, for the phase of waves and curls; in a clump it counts along the way
+// of the leader, so that all of them turn together.
 #include "drawn_lanes.h"
 
 static inline Points unit_or(Points v, Points otherwise)
@@ -59,8 +60,9 @@ static inline BraidSides braid_sides(global const DrawnStrand* strands, global c
 #endif
 
 kernel void transport_frames(global const float4* drawn_position, global float4* drawn_frame,
+                             global const DrawnStrand* strands,
 #ifdef BRAIDED
-                             global const DrawnStrand* strands, global const TiedStrand* tied, constant Tail* tails,
+                             global const TiedStrand* tied, constant Tail* tails,
 #endif
                              constant StepInfo* info)
 {
@@ -83,7 +85,13 @@ kernel void transport_frames(global const float4* drawn_position, global float4*
     const Points lean = across(outward, tangent);
     Points normal = unit_or(select_points(across(side, tangent), lean, dot_lanes(lean, lean) > 1e-4f), side);
     real length_so_far = zero;
-    store_node(drawn_frame, strand, 0, normal, zero);
+#ifdef CLUMPS
+    float ahead[WIDTH];
+    for (int lane = 0; lane < WIDTH; ++lane)
+        ahead[lane] = strands[strand[lane]].weights.w;
+    length_so_far = LANES_LOAD(ahead);
+#endif
+    store_node(drawn_frame, strand, 0, normal, length_so_far);
 
 #ifdef BRAIDED
     const BraidSides braid = braid_sides(strands, tied, tails, strand, info);

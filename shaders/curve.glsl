@@ -3,6 +3,7 @@
 #define float4 vec4
 #define FLOAT4(x, y, z, w) vec4(x, y, z, w)
 #define UINT uint
+#define TO_INT(v) int(v)
 #define TO_UINT(v) uint(v)
 #define TO_FLOAT(v) float(v)
 #include "strand_curve.h"

@@ -4,7 +4,7 @@
 //   in   lines_adjacency   four neighbouring nodes; the piece runs between the middle two
 //   out  triangle_strip    two vertices for each end of a subdivision
 //
-// The curve is smoothed as smoothing.curve says, waves are laid on along the strand's frame, and it is cut into as many
+// The curve is smoothed as smoothing.curve says, waves, curls and frizz are laid on along the strand's frame, and it is cut into as many
 // pieces as its bend on screen asks for, up to smoothing.subdivisions. A ribbon is never thinner than a pixel: below that
 // its coverage shrinks instead, and half a pixel on either side lets the edges fade. Light is computed here, once a point
 // of the curve and not once a pixel: it changes with the tangent, and where that turns the pieces are short.
@@ -18,13 +18,16 @@ layout(triangle_strip, max_vertices = 62) out;
 #include "look.glsl"
 #include "braid.glsl"
 
-uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
+uniform sampler1D wave;         // both perpendiculars' waves, sim/wave.cpp
+uniform sampler1D ramp;         // colours that tell a value, app/strand_colors.h
+uniform isamplerBuffer leaders; // the strand that leads each strand's clump, where there are clumps
 
 in NodeData {
     vec4 normal;
     float light;
     float along;
     int strand;
+    float value;
 } node[4];
 
 // 6 components and gl_Position's four, times 62 vertices: well below the 1024 that GL 3.2 promises.
@@ -55,19 +58,54 @@ void frame_at(float t, out vec3 tangent, out vec3 normal)
     normal *= inversesqrt(max(dot(normal, normal), 1e-20));
 }
 
-vec3 wave_at(float t)
+// What tells strands apart.
+struct Seeds
+{
+    int own, together; // the strand's, and that of its curl, which the strands of a clump share
+    float curl_begin;  // turns
+};
+
+Seeds seeds_of(int strand)
+{
+    Seeds seeds;
+    seeds.own = seeds.together = look.seed;
+    seeds.curl_begin = 0.0;
+    if (look.curl > 0.0)
+    {
+        seeds.curl_begin = params.curl_phase * strand_random(seeds.own, RANDOM_CURL_PHASE);
+        if (params.clump_strength > 0.0)
+        {
+            seeds.together = texelFetch(leaders, strand).r + 7919 * params.interpolation_seed;
+            seeds.curl_begin += strand_random(seeds.together, RANDOM_CURL_TOGETHER);
+        }
+    }
+    return seeds;
+}
+
+vec3 laid_on(float t, Seeds seeds)
 {
     float along = mix(node[1].along, node[2].along, t);
     float distance_from_root = mix(node[1].normal.w, node[2].normal.w, t);
     vec3 tangent, normal;
     frame_at(t, tangent, normal);
-    float first = texture(wave, wave_place(look.seed, distance_from_root, look.normal_frequency,
-                                           params.wave_normal_randomness)).r;
-    float second = texture(wave, wave_place(look.seed, distance_from_root, look.binormal_frequency,
-                                            params.wave_binormal_randomness)).g;
-    return normal * (first * look.normal_amplitude * wave_onset(along, params.wave_normal_begin)) +
-           cross(tangent, normal) *
-               (second * look.binormal_amplitude * wave_onset(along, params.wave_binormal_begin));
+    vec2 across = vec2(0.0); // along the normal, along the binormal
+    if (look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0)
+    {
+        float first = texture(wave, wave_place(seeds.own, distance_from_root, look.normal_frequency,
+                                               params.wave_normal_randomness)).r;
+        float second = texture(wave, wave_place(seeds.own, distance_from_root, look.binormal_frequency,
+                                                params.wave_binormal_randomness)).g;
+        across = vec2(first * look.normal_amplitude * wave_onset(along, params.wave_normal_begin),
+                      second * look.binormal_amplitude * wave_onset(along, params.wave_binormal_begin));
+    }
+    if (look.curl > 0.0)
+        across += look.curl * wave_onset(along, params.curl_begin) *
+                  curl_at(seeds.together, seeds.curl_begin, distance_from_root, params.curl_pitch,
+                          params.curl_variation, params.curl_hand).xy;
+    if (look.frizz > 0.0)
+        across += look.frizz * frizz_onset(along) *
+                  frizz_at(seeds.own, distance_from_root, params.frizz_frequency).xy;
+    return profile_at(params.wave_along, along) * (normal * across.x + cross(tangent, normal) * across.y);
 }
 
 vec3 plaited(float t, out float open)
@@ -87,12 +125,17 @@ int pieces(float pixel)
     float stray = params.smoothing_curve == CURVE_LINEAR ? 0.0 : 0.125 * max(length(bend1), length(bend2)) / pixel;
     float segment = node[2].normal.w - node[1].normal.w;
     float waves_n = segment * look.normal_frequency, waves_b = segment * look.binormal_frequency;
+    float turns = segment / (params.curl_pitch * (1.0 - 0.5 * params.curl_variation));
+    float minds = 0.55 * segment * params.frizz_frequency; // the sine that bends as much as a smooth step does
     // A sine of height a and length l strays by a (pi / n)^2 / 2 when a wave is cut in n.
-    stray += 4.93 * (look.normal_amplitude * waves_n * waves_n + look.binormal_amplitude * waves_b * waves_b) / pixel;
+    stray += 4.93 * (look.normal_amplitude * waves_n * waves_n +
+                     look.binormal_amplitude * waves_b * waves_b + look.curl * turns * turns +
+                     0.5 * look.frizz * minds * minds) *
+             profile_at(params.wave_along, 0.5 * (node[1].along + node[2].along)) / pixel;
     if (braid.pitch > 0.0 && braid.behind + node[2].along * braid.per_along > 0.0)
     {
-        float turns = segment / braid.pitch;
-        stray += 4.93 * (braid.swing + 4.0 * braid.depth) * turns * turns / pixel;
+        float woven = segment / braid.pitch;
+        stray += 4.93 * (braid.swing + 4.0 * braid.depth) * woven * woven / pixel;
     }
     return clamp(int(ceil(sqrt(stray / kBendTolerance))), 1, params.smoothing_subdivisions);
 }
@@ -106,15 +149,17 @@ void main()
     look = look_of(node[1].strand);
     find_braid(node[1].strand);
     int count = pieces(pixel);
-    bool waves = look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0;
-    float brightness = exp(params.look_variation * 2.0 * (strand_random(look.seed, RANDOM_BRIGHTNESS) - 0.5));
+    bool adorned = look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0 ||
+                   look.curl > 0.0 || look.frizz > 0.0;
+    Seeds seeds = seeds_of(node[1].strand);
+    float brightness = exp(params.look_variation * 2.0 * (strand_random(seeds.own, RANDOM_BRIGHTNESS) - 0.5));
 
     float piece = 1.0 / float(count);
     vec3 before = curve_at(-piece), here = curve_at(0.0);
-    if (waves)
+    if (adorned)
     {
-        before += wave_at(-piece);
-        here += wave_at(0.0);
+        before += laid_on(-piece, seeds);
+        here += laid_on(0.0, seeds);
     }
     float open = 1.0; // to the light
     if (braid.pitch > 0.0)
@@ -126,8 +171,8 @@ void main()
     {
         float t = float(i) * piece;
         vec3 after = curve_at(t + piece);
-        if (waves)
-            after += wave_at(t + piece);
+        if (adorned)
+            after += laid_on(t + piece, seeds);
         float open_after = 1.0;
         if (braid.pitch > 0.0)
             after += plaited(t + piece, open_after);
@@ -138,14 +183,20 @@ void main()
         float size = frame.camera_position.w * length(to_camera); // of a pixel, here
         vec3 side = cross(tangent, to_camera);
         side *= inversesqrt(max(dot(side, side), 1e-20));
-        float width = look.width * (1.0 - params.look_taper * along * along) / size;
+        float width = look.width * (1.0 - params.look_taper * along * along) *
+                      profile_at(params.look_width_along, along) / size;
         float half_drawn = 0.5 * max(width, 1.0) + 0.5;
 
-        vec3 hair = mix(look.root_color, look.tip_color, along) * brightness;
-        ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, open * mix(node[1].light, node[2].light, t));
+        vec3 hair = mix(look.root_color, look.tip_color, profile_at(params.look_color_along, along)) * brightness;
+        float opacity = look.opacity * profile_at(params.look_opacity_along, along);
+        float light = open * mix(node[1].light, node[2].light, t);
+        if (node[1].value < 0.0)
+            ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, light);
+        else // lit little, so that a colour is the legend's
+            ribbon.color = texture(ramp, mix(node[1].value, node[2].value, t)).rgb * mix(0.65, 1.0, light);
         for (float s = -1.0; s <= 1.0; s += 2.0)
         {
-            ribbon.across = vec3(s * half_drawn, half_drawn, look.opacity * min(width, 1.0));
+            ribbon.across = vec3(s * half_drawn, half_drawn, opacity * min(width, 1.0));
             gl_Position = frame.view_projection * vec4(here + side * (s * half_drawn * size), 1.0);
             EmitVertex();
         }

@@ -1,5 +1,6 @@
 #include "sim/groom.h"
 
+#include "sim/clumps.h"
 #include "sim/material.h"
 #include "sim/shaping.h"
 
@@ -26,7 +27,10 @@ enum Channel
     kCut,
     kStrandSeed,
     kTurn, // and upwards: one pair of channels for each of eight tries
-    kKeep = kTurn + 16
+    kKeep = kTurn + 16,
+    kCurlPhase = 100,
+    kCurlVariation,
+    kCurlHand
 };
 
 static uint32_t pcg(uint32_t state)
@@ -62,8 +66,8 @@ static glm::vec3 flow(glm::vec3 n, glm::vec3 crown, float part)
     // The arc's point nearest to n, by its angle from the crown.
     const float angle = std::clamp(std::atan2(glm::dot(n, ahead), glm::dot(n, pole)), 0.0f, part);
     const glm::vec3 nearest = pole * std::cos(angle) + ahead * std::sin(angle);
-    const glm::vec3 away = n * glm::dot(n, nearest) - nearest;
-    const glm::vec3 back = -ahead - n * glm::dot(-ahead, n); // on the parting itself: backwards
+    const glm::vec3 away = glm::cross(n, glm::cross(n, nearest)); // across n to the last bit, even close to the crown
+    const glm::vec3 back = -ahead - n * glm::dot(-ahead, n);      // on the parting itself: backwards
     return unit(away, unit(back, unit(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
 }
 
@@ -90,7 +94,7 @@ static glm::vec3 without_opposed(glm::vec3 weights, const glm::vec3 directions[3
         if (weights[k] > weights[nearest])
             nearest = k;
     for (int k = 0; k < 3; ++k)
-        if (glm::dot(directions[k], directions[nearest]) < 0.85f)
+        if (glm::dot(directions[k], directions[nearest]) < kSameWay)
             weights[k] = 0.0f;
     return weights / (weights.x + weights.y + weights.z);
 }
@@ -143,11 +147,12 @@ struct Ground
     std::vector<glm::vec3> directions; // of the guides' roots
     std::vector<float> lengths;        // of the guides, m
     std::vector<Sides> sides;          // of the guides
+    std::vector<Sides> drawn_sides;    // of the drawn strands so far; empty where nothing varies
 };
 } // namespace
 
 // Cuts the strand with this number to its length and adds it, unless it is one of those that thin hair lacks.
-static void add_drawn(Groom& groom, const Ground& ground, DrawnStrand strand, const ScalpPlace& place, int index)
+static void add_drawn(Groom& groom, Ground& ground, DrawnStrand strand, const ScalpPlace& place, int index)
 {
     const HairParams p = ground.varied ? params_at(ground.shaping, place) : ground.shaping.params;
     const int seed = p.interpolation_seed;
@@ -159,6 +164,7 @@ static void add_drawn(Groom& groom, const Ground& ground, DrawnStrand strand, co
     strand.seed = int(random01(seed, index, kStrandSeed) * 0x1p24f);
     if (ground.varied)
     {
+        ground.drawn_sides.push_back(sides_at(ground.shaping, place));
         const bool copy = strand.guide0 == strand.guide1 && strand.guide0 == strand.guide2;
         const float4 w = copy ? F4(1.0f, 0.0f, 0.0f, 0.0f) : strand.weights;
         const float length = w.x * ground.lengths[size_t(strand.guide0)] + w.y * ground.lengths[size_t(strand.guide1)] +
@@ -170,12 +176,13 @@ static void add_drawn(Groom& groom, const Ground& ground, DrawnStrand strand, co
         groom.looks.push_back({linear(p.look_root_color, p.look_width), linear(p.look_tip_color, p.look_opacity),
                                F4(waves * p.wave_normal_amplitude, p.wave_normal_frequency,
                                   waves * p.wave_binormal_amplitude, p.wave_binormal_frequency),
-                               F4(float(strand.seed), 0.0f, 0.0f, 0.0f)});
+                               F4(float(strand.seed), curls_are_shape(ground.shaping.params) ? 0.0f : p.curl_radius,
+                                  p.frizz_amount, 0.0f)});
     }
     groom.drawn.push_back(strand);
 }
 
-static void grow_multi(Groom& groom, const Ground& ground, int count)
+static void grow_multi(Groom& groom, Ground& ground, int count)
 {
     const HairParams& p = ground.shaping.params;
     const Scalp& scalp = ground.shaping.scalp;
@@ -237,7 +244,7 @@ static glm::vec3 turned(glm::vec3 v, glm::vec3 center, float yaw, float pitch)
     return center + turn * (v - center);
 }
 
-static void grow_single(Groom& groom, const Ground& ground, int count, int first)
+static void grow_single(Groom& groom, Ground& ground, int count, int first)
 {
     const HairParams& p = ground.shaping.params;
     const Scalp& scalp = ground.shaping.scalp;
@@ -289,26 +296,46 @@ static void grow_single(Groom& groom, const Ground& ground, int count, int first
     }
 }
 
-// Nodes of a strand whose own shape is waves about a straight axis: equally far apart along the curve, which is longer
-// than the axis. Returns the length of its segments, m.
-static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
-                          std::vector<glm::dvec3>& nodes)
+// A guide's curl, if it is one of the strand's own shape.
+struct Curl
+{
+    double radius = 0.0, turns = 0.0; // m; turns a metre, left-handed ones below zero
+    double phase = 0.0;               // turns
+};
+
+static Curl curl_of(const HairParams& p, int guide)
+{
+    const int seed = p.interpolation_seed;
+    const double less = double(p.curl_variation) * double(random01(seed, guide, kCurlVariation));
+    const bool left = p.curl_hand == 2 ? random01(seed, guide, kCurlHand) < 0.5f : p.curl_hand == 1;
+    return {double(p.curl_radius) * (1.0 - less), (left ? -1.0 : 1.0) / (double(p.curl_pitch) * (1.0 - 0.5 * less)),
+            double(p.curl_phase) * double(random01(seed, guide, kCurlPhase))};
+}
+
+// Nodes of a strand whose own shape is waves and a curl about a straight axis: equally far apart along the curve, which
+// is longer than the axis. Returns the length of its segments, m.
+static double shape_form(const HairParams& p, bool waved, const Curl& curl, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
+                         std::vector<glm::dvec3>& nodes)
 {
     const glm::dvec3 binormal = glm::cross(along, normal);
+    const double waves = waved ? 1.0 : 0.0;
     const auto at = [&](double s) // s: along the axis, m
     {
-        const double share = s / double(p.strand_length), turns = 2.0 * std::numbers::pi * s;
+        const double share = s / double(p.strand_length), turn = 2.0 * std::numbers::pi;
         // As kernels/strand_curve.h lets waves set in; said again, because that speaks float only, as GLSL does.
         const auto onset = [&](double begin)
         {
             const double u = std::clamp(4.0 * (share - begin), 0.0, 1.0);
             return u * u * (3.0 - 2.0 * u);
         };
+        const double angle = turn * (curl.turns * s + curl.phase), radius = curl.radius * onset(p.curl_begin);
+        const double n = waves * double(p.wave_normal_amplitude) * onset(p.wave_normal_begin) *
+                         std::sin(turn * s * double(p.wave_normal_frequency));
+        const double b = waves * double(p.wave_binormal_amplitude) * onset(p.wave_binormal_begin) *
+                         std::cos(turn * s * double(p.wave_binormal_frequency));
         return root + along * s +
-               normal * (double(p.wave_normal_amplitude) * onset(p.wave_normal_begin) *
-                         std::sin(turns * double(p.wave_normal_frequency))) +
-               binormal * (double(p.wave_binormal_amplitude) * onset(p.wave_binormal_begin) *
-                           std::cos(turns * double(p.wave_binormal_frequency)));
+               profile_at(p.wave_along, share) *
+                   (normal * (n + radius * std::cos(angle)) + binormal * (b + radius * std::sin(angle)));
     };
     const int links = p.strand_nodes - 2, fine = 64 * links;
     std::vector<glm::dvec3> curve;
@@ -333,11 +360,16 @@ static double shape_waves(const HairParams& p, glm::dvec3 root, glm::dvec3 along
     return segment;
 }
 
+static bool curls_differ(const HairParams& p)
+{
+    return curls_are_shape(p) && (p.curl_phase > 0.0f || p.curl_variation > 0.0f || p.curl_hand == 2);
+}
+
 Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
 {
     const Scalp scalp = refined(authored, p.interpolation_refine);
     const Shaping shaping = shape_over(p, host, authored, scalp);
-    Ground ground{shaping, varies(host), {}, {}, {}};
+    Ground ground{shaping, varies(host), {}, {}, {}, {}};
     Groom groom;
     groom.nodes = p.strand_nodes;
     groom.guides = int(scalp.positions.size());
@@ -359,8 +391,8 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
     groom.root_direction.resize(size_t(groom.blocks) * 3 * LANES);
     groom.segment_length.resize(size_t(groom.blocks) * LANES);
     groom.hold = p.bending_hold;
-    const bool waves = waves_are_shape(p);
-    if (waves)
+    const bool formed = waves_are_shape(p) || curls_are_shape(p);
+    if (formed)
         groom.natural_position.resize(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
     if (ground.varied)
         groom.bend_factor.resize(size_t(groom.blocks) * LANES);
@@ -378,15 +410,15 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
         // All segments of a strand are equally long; the one under the scalp does not count towards its length.
         float& segment = groom.segment_length[size_t(s)];
         segment = own.strand_length / float(groom.nodes - 2);
-        if (waves)
+        if (formed)
         {
             const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = direction;
             const glm::vec3 outward = scalp.normals[g] - direction * glm::dot(scalp.normals[g], direction);
             const glm::vec3 side = glm::cross(direction, glm::vec3(0.0f, 1.0f, 0.0f));
             const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
             std::vector<glm::dvec3> nodes;
-            segment =
-                float(shape_waves(own, root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
+            segment = float(shape_form(own, waves_are_shape(p), curls_are_shape(p) ? curl_of(own, int(g)) : Curl{}, root,
+                                       along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
             for (int k = 0; k < groom.nodes; ++k)
                 for (int axis = 0; axis < 3; ++axis)
                     groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] =
@@ -405,12 +437,24 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
         ground.sides.push_back(ground.varied ? sides_at(shaping, at_vertex(scalp, g)) : Sides{});
     }
 
+    if (host.groom_rest.shapes)
+        take_shapes(groom, *host.groom_rest.shapes, scalp, p.head_scale);
+
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
     const int multi = p.interpolation_strands - single;
     groom.drawn.reserve(size_t(p.interpolation_strands));
     grow_multi(groom, ground, multi);
     groom.drawn_multi = int(groom.drawn.size());
     grow_single(groom, ground, single, multi);
+    for (size_t i = 0; i < groom.drawn.size(); ++i)
+    {
+        groom.drawn[i].leader = int(i);
+        // The mean of two curls that turn in different places is none: each strand follows one guide.
+        if (formed && int(i) < groom.drawn_multi && curls_differ(p))
+            groom.drawn[i].weights = F4(1.0f, 0.0f, 0.0f, 0.0f);
+    }
+    if (has_clumps(p))
+        gather_clumps(groom.drawn, p, ground.directions, ground.drawn_sides);
     return groom;
 }
 

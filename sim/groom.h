@@ -55,6 +55,9 @@ inline glm::dvec3 vector_at(const float* values, int strand, int node, int nodes
     return {at[0], at[LANES], at[2 * LANES]};
 }
 
+// Cosine between root directions: roots that lean further apart lie on two sides of a parting.
+constexpr float kSameWay = 0.85f;
+
 // A strand mixed of three guides, in these shares (whose sum is not zero), as grow() mixes them; the root and the rest
 // are left to the caller. `directions` are all guides' root directions.
 DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3& guides, glm::vec3 weights);

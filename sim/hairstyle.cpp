@@ -60,7 +60,7 @@ static bool read_hex_color(const std::string& text, double out[3])
 
 void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
-    double values[3] = {};
+    double values[kMostNumbers] = {};
     const auto wrong = [&](const char* wanted)
     { return fail("{} must be {}, not {}", info.path(), wanted, type_name(node)); };
     switch (info.kind)
@@ -83,6 +83,13 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
         if (!read_numbers(node, values, 3) && !(node.is_string() && read_hex_color(*node.value<std::string>(), values)))
             throw wrong("a colour like \"#8a5a3c\" or three numbers from 0 to 1");
         break;
+    case Kind::PROFILE:
+        if (const toml::array* list = node.as_array(); list && list->size() != 4)
+            throw fail("{} must be four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0], not {}", info.path(),
+                       list->size());
+        if (!read_numbers(node, values, 4))
+            throw wrong("four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0]");
+        break;
     case Kind::CHOICE:
     {
         const std::vector<std::string> labels = param_labels(info);
@@ -102,6 +109,16 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
         *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&style.host) + info.offset) = text;
         return;
     }
+    case Kind::SHAPE:
+    {
+        if (!node.is_string())
+            throw wrong("a file's name in quotes");
+        const std::string file = *node.value<std::string>();
+        if (file.find('\0') != file.npos)
+            throw fail("{} must not hold a zero byte", info.path());
+        *reinterpret_cast<StoredShape*>(reinterpret_cast<char*>(&style.host) + info.offset) = {file, nullptr};
+        return;
+    }
     case Kind::LIST:
         throw wrong(fmt::format("a list of [[{}]] tables", info.group).c_str());
     }
@@ -119,7 +136,7 @@ catch (const toml::parse_error& e)
     throw fail("{}: not valid TOML: {}", place(file, e.source()), e.description());
 }
 
-Hairstyle parse_hairstyle(const std::string& text, const fs::path& file)
+Hairstyle parse_hairstyle(const std::string& text, const fs::path& file, bool beside)
 {
     const toml::table document = parse_toml(text, file);
     Hairstyle style;
@@ -130,6 +147,11 @@ Hairstyle parse_hairstyle(const std::string& text, const fs::path& file)
         if (const ParamInfo* list = find_param(group.str()); list && list->kind == Kind::LIST)
         {
             read_list(style, *list, node);
+            continue;
+        }
+        if (group == "variant")
+        {
+            read_variants(style, node);
             continue;
         }
         const toml::table* table = node.as_table();
@@ -155,6 +177,8 @@ Hairstyle parse_hairstyle(const std::string& text, const fs::path& file)
             style.places[path] = at;
         }
     }
+    if (beside)
+        load_beside(style);
     return style;
 }
 
@@ -198,6 +222,8 @@ void assign(Hairstyle& style, const std::string& assignment)
                 throw fail("'{}' is more than one TOML value", text);
         }
         read_value(style, *info, *document.get("value"));
+        if (info->kind == Kind::SHAPE)
+            load_beside(style);
     }
     catch (const toml::parse_error&)
     {
@@ -239,7 +265,7 @@ std::string list_text(const float* values, size_t count)
 
 std::string value_text(const Hairstyle& style, const ParamInfo& info)
 {
-    float v[3] = {};
+    float v[kMostNumbers] = {};
     if (!info.on_host())
         get_numbers(style.params, info, v);
     switch (info.kind)
@@ -252,6 +278,8 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return toml_string(param_labels(info).at(size_t(v[0])));
     case Kind::VECTOR:
         return fmt::format("[{}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]));
+    case Kind::PROFILE:
+        return fmt::format("[{}, {}, {}, {}]", float_text(v[0]), float_text(v[1]), float_text(v[2]), float_text(v[3]));
     case Kind::COLOR:
     {
         int bytes[3];
@@ -268,6 +296,9 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
     case Kind::TEXT:
         return toml_string(
             *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&style.host) + info.offset));
+    case Kind::SHAPE:
+        return toml_string(
+            reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&style.host) + info.offset)->file);
     case Kind::LIST:
         return with_list(style.host, info, [](const auto& list) { return fmt::format("{} of them", list.size()); });
     }
@@ -276,6 +307,9 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
 
 bool same_value(const Hairstyle& a, const Hairstyle& b, const ParamInfo& info)
 {
+    if (info.kind == Kind::SHAPE)
+        return *reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&a.host) + info.offset) ==
+               *reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&b.host) + info.offset);
     if (info.kind != Kind::LIST)
         return value_text(a, info) == value_text(b, info);
     return with_list(a.host, info,
@@ -297,6 +331,9 @@ void copy_value(const Hairstyle& from, Hairstyle& to, const ParamInfo& info)
                       const char* other = reinterpret_cast<const char*>(&from.host) + info.offset;
                       list = *reinterpret_cast<const List*>(other);
                   });
+    else if (info.kind == Kind::SHAPE)
+        *reinterpret_cast<StoredShape*>(reinterpret_cast<char*>(&to.host) + info.offset) =
+            *reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&from.host) + info.offset);
     else if (info.kind == Kind::TEXT)
         *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&to.host) + info.offset) =
             *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&from.host) + info.offset);

@@ -17,13 +17,19 @@ struct Hairstyle
     std::map<std::string, std::string> places; // "scalp.mesh" -> "bob.toml:3:8", for errors told later
     HairParams params;
     HostParams host;
+    // [variant.NAME]: what differs from the style itself under that name. While one of them is on, `params` are its, and
+    // `own` are the style's.
+    std::map<std::string, std::vector<Setting>> variants;
+    std::string variant; // that is on; empty: none
+    HairParams own;
 
     std::string name() const { return file.empty() ? "untitled" : file.stem().string(); }
 };
 
 // Throws Error "bob.toml:12:9: strand.length is -1, but must lie in [0.002, 1.5] m".
 Hairstyle load_hairstyle(const std::filesystem::path& file);
-Hairstyle parse_hairstyle(const std::string& text, const std::filesystem::path& file);
+// `beside`: also what lies in files beside it, strand shapes and large maps.
+Hairstyle parse_hairstyle(const std::string& text, const std::filesystem::path& file, bool beside = true);
 
 // `[[collider]]` entries of a file of their own, as head.spheres names. Throws Error as load_hairstyle().
 std::vector<Collider> load_colliders(const std::filesystem::path& file);
@@ -33,6 +39,17 @@ void assign(Hairstyle& style, const std::string& assignment);
 
 // The TOML text of a value: shortest floats, "#rrggbb" for colours that are bytes, labels for choices.
 std::string value_text(const Hairstyle& style, const ParamInfo& info);
+
+// Turns a variant on, in place of the one that is, or none with an empty name; edits to the old one stay in it. Throws
+// Error naming those there are.
+void switch_variant(Hairstyle& style, const std::string& name);
+// Keeps all numbers as they are now under a name, as what differs from the style as it was written, and turns that on.
+// Throws Error for a name that is no TOML key.
+void take_variant(Hairstyle& style, const std::string& name);
+// The variants with the one that is on as it is now.
+std::map<std::string, std::vector<Setting>> current_variants(const Hairstyle& style);
+// Numbers and lists alike, and variants too?
+bool same_style(const Hairstyle& a, const Hairstyle& b);
 
 bool same_value(const Hairstyle& a, const Hairstyle& b, const ParamInfo& info);
 void copy_value(const Hairstyle& from, Hairstyle& to, const ParamInfo& info);

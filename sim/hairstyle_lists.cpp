@@ -323,8 +323,11 @@ struct EntryWriter
 
 } // namespace
 
-template <typename Entry> static TomlEntry written(const Entry& entry)
+template <typename Entry> static TomlEntry written(Entry entry)
 {
+    if constexpr (std::is_same_v<Entry, ScalpMap>)
+        if (!entry.file.empty())
+            entry.values.clear(); // which that holds
     EntryWriter writer;
     fields(writer, entry);
     return writer.entry;
@@ -391,20 +394,8 @@ static void check(ScalpMap& map, const EntryReader& at)
     if (color != (map.how == MAP_OVER))
         throw at.wrong(*at.table.get("how"), "how",
                        color ? "must be \"over\" for a colour" : "must be \"factor\" or \"offset\" for a number");
-    if (map.values.empty() && !map.file.empty())
-    {
-        const toml::node& file = *at.table.get("file");
-        try
-        {
-            map.values = read_map_values(at.file.parent_path() / map.file);
-        }
-        catch (const Error& e)
-        {
-            throw fail("{}: {}", place(at.file, file.source()), e.what());
-        }
-    }
-    if (map.values.empty())
-        throw fail("{}: a map needs values, or a file of them", place(at.file, at.table.source()));
+    if (map.values.empty() == map.file.empty())
+        throw fail("{}: a map needs either values or a file of them", place(at.file, at.table.source()));
 }
 
 static void check(const Tie& tie, const EntryReader& at)
@@ -450,6 +441,29 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
             if (style.host.regions[i].name == style.host.regions[j].name)
                 throw fail("{}: two regions are called '{}'", style.places[fmt::format("region[{}]", i)],
                            style.host.regions[i].name);
+}
+
+void load_beside(Hairstyle& style)
+{
+    const fs::path folder = style.file.parent_path();
+    const auto placed = [&](const std::string& key, auto&& load)
+    {
+        try
+        {
+            load();
+        }
+        catch (const Error& e)
+        {
+            const auto at = style.places.find(key);
+            throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
+        }
+    };
+    if (StoredShape& rest = style.host.groom_rest; !rest.file.empty())
+        placed("groom.rest",
+               [&] { rest.shapes = std::make_shared<const StrandShapes>(read_shapes(folder / rest.file)); });
+    for (size_t i = 0; i < style.host.maps.size(); ++i)
+        if (ScalpMap& map = style.host.maps[i]; !map.file.empty())
+            placed(fmt::format("map[{}]", i), [&] { map.values = read_map_values(folder / map.file); });
 }
 
 std::vector<float> read_map_values(const fs::path& file)

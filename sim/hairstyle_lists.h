@@ -16,8 +16,14 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 // place for what is no such list, too long, or wrong in itself; what hangs on the scalp is check_lists()'s.
 void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node);
 
+// What the style's files beside it hold: strand shapes, and the values of large maps. Throws Error with the place.
+void load_beside(Hairstyle& style);
+
 // Entries as they are to be written: what differs from the defaults.
 std::vector<TomlEntry> list_entries(const HostParams& host, const ParamInfo& info);
+
+// [variant.NAME] tables. Throws Error with the place.
+void read_variants(Hairstyle& style, const toml::node& node);
 
 // A value of one parameter among others: of a region, of a variant. Throws Error with the place.
 Setting read_setting(const std::filesystem::path& file, const std::string& path, const toml::key& key,

@@ -1,6 +1,7 @@
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
@@ -123,24 +124,80 @@ static Hairstyle moved(const Hairstyle& style, const fs::path& target)
 
 std::string hairstyle_text(const Hairstyle& style, const fs::path& target)
 {
-    const Hairstyle wanted = moved(style, target);
-    const Hairstyle written = style.text.empty() ? Hairstyle{} : parse_hairstyle(style.text, style.file);
+    Hairstyle wanted = moved(style, target);
+    const auto variants = current_variants(wanted);
+    if (!wanted.variant.empty())
+        wanted.params = wanted.own;
+    const Hairstyle written = style.text.empty() ? Hairstyle{} : parse_hairstyle(style.text, style.file, false);
     std::vector<TomlEdit> edits;
     for (const ParamInfo& info : param_table())
         if (info.kind != Kind::LIST && !same_value(wanted, written, info))
             edits.push_back({info.group, info.name, value_text(wanted, info)});
     std::string text = edit_toml(style.text, edits);
+    edits.clear();
+    for (const auto& [name, settings] : variants)
+    {
+        const auto old = written.variants.find(name);
+        const std::vector<Setting> before = old == written.variants.end() ? std::vector<Setting>{} : old->second;
+        const auto same_group = [](const ParamInfo* info)
+        { return [info](const Setting& s) { return s.info->group == std::string_view(info->group); }; };
+        // Where the author has begun a group, its keys are changed one by one; a new one is written as { ... }.
+        std::vector<Setting> fresh;
+        for (const Setting& setting : settings)
+            if (std::ranges::none_of(before, same_group(setting.info)))
+                fresh.push_back(setting);
+            else if (std::ranges::find(before, setting) == before.end())
+                edits.push_back({fmt::format("variant.{}.{}", name, setting.info->group), setting.info->name,
+                                 setting_text(setting)});
+        for (const auto& [group, values] : settings_entry(fresh))
+            edits.push_back({"variant." + name, group, values});
+        for (const Setting& setting : before)
+            if (std::ranges::find(settings, setting.info, &Setting::info) == settings.end())
+                edits.push_back(
+                    {fmt::format("variant.{}.{}", name, setting.info->group), setting.info->name, std::nullopt});
+    }
+    for (const auto& [name, settings] : written.variants)
+        if (!variants.contains(name))
+            edits.push_back({"variant", name, std::nullopt});
+    text = edit_toml(text, edits);
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST && !same_value(wanted, written, info))
             text = edit_toml_array(text, info.group, list_entries(wanted.host, info));
     return text;
 }
 
+// What a style keeps in files beside it, given names where it has none yet: file and bytes of what is not there as it
+// should be. A file that another style may share is not written over: it is kept under a name of this one's own.
+static std::vector<std::pair<fs::path, std::string>> side_files(Hairstyle& style, const fs::path& target)
+{
+    std::vector<std::pair<fs::path, std::string>> files;
+    const fs::path folder = target.parent_path();
+    const auto keep = [&](std::string& name, const std::string& own, const std::string& bytes)
+    {
+        std::error_code error;
+        if (!name.empty() && fs::is_regular_file(folder / name, error) && read_file(folder / name) == bytes)
+            return;
+        name = own;
+        files.emplace_back(folder / name, bytes);
+    };
+    const std::string stem = target.stem().string();
+    if (StoredShape& rest = style.host.groom_rest; rest.shapes)
+        keep(rest.file, stem + ".rest", shapes_text(*rest.shapes));
+    for (ScalpMap& map : style.host.maps)
+        if (map.values.size() > kMostInline || !map.file.empty())
+            keep(map.file, stem + "." + map.of + ".map", map_values_text(map.values));
+    return files;
+}
+
 void save_hairstyle(Hairstyle& style, const fs::path& target)
 {
-    const std::string text = hairstyle_text(style, target);
+    Hairstyle named = style;
+    for (const auto& [file, bytes] : side_files(named, target))
+        write_file(file, bytes);
+    const std::string text = hairstyle_text(named, target);
     Hairstyle saved = parse_hairstyle(text, target); // what was written is what will be read
     write_file(target, text);
+    switch_variant(saved, style.variant);
     style = std::move(saved);
 }
 

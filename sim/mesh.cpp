@@ -15,16 +15,13 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
 namespace coif
 {
 
-static constexpr size_t kMostVertices = 65536; // of a scalp
-static constexpr float kFurthest = 1e6f;       // of a mesh: a head in micrometres is within it
+static constexpr float kFurthest = 1e6f; // of a mesh: a head in micrometres is within it
 
 static bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -176,60 +173,6 @@ Scalp load_scalp(const std::filesystem::path& file)
     fit_sphere(scalp);
     scalp.normals = vertex_normals(scalp, scalp.center);
     return scalp;
-}
-
-int most_refinements(const Scalp& scalp)
-{
-    // Each adds a vertex an edge; of edges there are twice as many then, and three in each triangle.
-    std::set<std::pair<unsigned, unsigned>> sides;
-    for (const glm::uvec3& t : scalp.triangles)
-        sides.insert({std::minmax(t.x, t.y), std::minmax(t.y, t.z), std::minmax(t.z, t.x)});
-    size_t vertices = scalp.positions.size(), edges = sides.size(), triangles = scalp.triangles.size();
-    int times = 0;
-    while (times < 5 && vertices + edges <= kMostVertices)
-    {
-        vertices += edges;
-        edges = 2 * edges + 3 * triangles;
-        triangles *= 4;
-        ++times;
-    }
-    return times;
-}
-
-Scalp refined(const Scalp& scalp, int times)
-{
-    if (times == 0) // as every slider's regrowth asks for
-        return scalp;
-    if (times > most_refinements(scalp))
-        throw fail(
-            "interpolation.refine: {} would give more than the {} guides that coif takes; this scalp can take {}",
-            times, kMostVertices, most_refinements(scalp));
-    Scalp fine = scalp;
-    for (int i = 0; i < times; ++i)
-    {
-        std::map<std::pair<unsigned, unsigned>, unsigned> middles;
-        const auto middle = [&](unsigned a, unsigned b)
-        {
-            const auto [found, fresh] = middles.try_emplace(std::minmax(a, b), unsigned(fine.positions.size()));
-            if (fresh)
-            {
-                fine.positions.push_back(0.5f * (fine.positions[a] + fine.positions[b]));
-                fine.between.emplace_back(a, b);
-            }
-            return found->second;
-        };
-        std::vector<glm::uvec3> triangles;
-        for (const glm::uvec3& t : fine.triangles)
-        {
-            const unsigned xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
-            triangles.insert(triangles.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
-        }
-        fine.triangles = std::move(triangles);
-    }
-    const size_t given = scalp.normals.size();
-    const std::vector<glm::vec3> normals = vertex_normals(fine, fine.center);
-    fine.normals.insert(fine.normals.end(), normals.begin() + long(given), normals.end());
-    return fine;
 }
 
 static void append(Mesh& mesh, const aiScene& scene, const aiNode& node, glm::mat4 parent, int depth, const char* file)

@@ -2,6 +2,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -28,12 +29,14 @@ struct Scalp : Mesh
     std::vector<glm::uvec2> between; // of a refined one: each vertex after the authored ones lies between these two
 };
 
+constexpr size_t kMostVertices = 65536; // of a scalp
+
 // An OBJ of triangles; its vertices keep their order. Throws Error with file and line for anything else: polygons,
 // indices out of range, coordinates that are not finite, more than 65,536 vertices, no extent.
 Scalp load_scalp(const std::filesystem::path& file);
 
-// The scalp with each triangle cut in four at the middles of its sides, `times` over. Vertices keep their numbers, new
-// ones follow. Throws Error when that would be more than 65,536 of them.
+// The scalp with each triangle cut in four at the middles of its sides, `times` over, as round as its normals say.
+// Vertices keep their numbers, new ones follow. Throws Error when that would be more than 65,536 of them.
 Scalp refined(const Scalp& scalp, int times);
 int most_refinements(const Scalp& scalp); // that refined() takes, and interpolation.refine
 

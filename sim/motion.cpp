@@ -163,6 +163,13 @@ std::vector<std::string> motion_names()
     return names;
 }
 
+fs::path motion_file(const std::string& name_or_path)
+{
+    std::error_code error;
+    const fs::path ours = motion_folder() / (name_or_path + ".toml");
+    return fs::exists(name_or_path, error) && !fs::exists(ours, error) ? fs::path(name_or_path) : ours;
+}
+
 Motion find_motion(const std::string& name_or_path)
 {
     const std::vector<std::string> names = motion_names();

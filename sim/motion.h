@@ -64,6 +64,9 @@ struct Motion
 // Throws Error with file, line and column.
 Motion load_motion(const std::filesystem::path& file);
 
+// The file of a motion given by path, or by the name of one that coif ships, whether it is there or not.
+std::filesystem::path motion_file(const std::string& name_or_path);
+
 // A motion by path, or by the name of one that coif ships. Throws Error naming those there are.
 Motion find_motion(const std::string& name_or_path);
 

@@ -20,6 +20,7 @@ static constexpr const char* bare(const char* name) { return *name == '"' ? "" :
     {#group, #name, Kind::kind, Scope::scope, Effect::effect, ReadBy::read_by, offsetof(HairParams, group##_##name),   \
      lo, hi, unit, labels, help},
 #define COIF_OFFSET_TEXT(group, name) offsetof(HostParams, group##_##name)
+#define COIF_OFFSET_SHAPE(group, name) offsetof(HostParams, group##_##name)
 #define COIF_OFFSET_LIST(group, name) offsetof(HostParams, group##s)
 #define COIF_HOST(group, kind, name, value, scope, effect, help)                                                       \
     {#group, bare(#name), Kind::kind, Scope::scope, Effect::effect, ReadBy::ALL, COIF_OFFSET_##kind(group, name),      \
@@ -37,7 +38,8 @@ std::span<const ParamInfo> param_table() { return kParams; }
 
 const char* kind_name(Kind kind)
 {
-    static const char* const names[] = {"number", "whole number", "choice", "three numbers", "colour", "text", "list"};
+    static const char* const names[] = {"number",  "whole number", "choice", "three numbers", "colour",
+                                        "profile", "text",         "shape",  "list"};
     return names[int(kind)];
 }
 
@@ -122,7 +124,7 @@ std::vector<std::string> param_labels(const ParamInfo& info)
     return labels;
 }
 
-void get_numbers(const HairParams& params, const ParamInfo& info, float out[3])
+void get_numbers(const HairParams& params, const ParamInfo& info, float out[kMostNumbers])
 {
     const char* field = reinterpret_cast<const char*>(&params) + info.offset;
     if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
@@ -135,9 +137,9 @@ void get_numbers(const HairParams& params, const ParamInfo& info, float out[3])
     memcpy(out, field, size_t(info.components()) * sizeof(float));
 }
 
-void set_numbers(HairParams& params, const ParamInfo& info, const double values[3])
+void set_numbers(HairParams& params, const ParamInfo& info, const double values[kMostNumbers])
 {
-    float floats[3];
+    float floats[kMostNumbers];
     for (int i = 0; i < info.components(); ++i)
     {
         if (!std::isfinite(values[i]))
@@ -173,11 +175,32 @@ bool waves_are_shape(const HairParams& p)
     return frequency > 0.0f && float(p.strand_nodes - 2) >= 8.0f * frequency * p.strand_length;
 }
 
+bool curls_are_shape(const HairParams& p)
+{
+    // The tightest curl turns once in the pitch that variation leaves of it: kernels/strand_curve.h.
+    const float tightest = p.curl_pitch * (1.0f - 0.5f * p.curl_variation);
+    return p.solver_kind == 0 && p.curl_radius > 0.0f && float(p.strand_nodes - 2) * tightest >= 8.0f * p.strand_length;
+}
+
+bool has_clumps(const HairParams& p) { return p.clump_strength > 0.0f; }
+
+double profile_at(const float4& p, double along)
+{
+    const double t = 3.0 * std::clamp(along, 0.0, 1.0);
+    return p.x + (double(p.y) - p.x) * std::min(t, 1.0) + (double(p.z) - p.y) * std::clamp(t - 1.0, 0.0, 1.0) +
+           (double(p.w) - p.z) * std::max(t - 2.0, 0.0);
+}
+
+float most_of(const float4& p) { return std::max({p.x, p.y, p.z, p.w}); }
+float least_of(const float4& p) { return std::min({p.x, p.y, p.z, p.w}); }
+
 HairParams device_params(const HairParams& authored)
 {
     HairParams params = authored;
     if (waves_are_shape(authored))
         params.wave_normal_amplitude = params.wave_binormal_amplitude = 0.0f; // nothing is left to lay on
+    if (curls_are_shape(authored))
+        params.curl_radius = 0.0f;
     for (const ParamInfo& info : param_table())
     {
         if (info.on_host() || info.kind == Kind::INT || info.kind == Kind::CHOICE)
@@ -203,7 +226,7 @@ std::string glsl_params_block()
     for (const ParamInfo& info : param_table())
         if (!info.on_host())
             text += fmt::format("    {} {}_{};\n",
-                                info.components() == 3                                ? "vec4"
+                                info.components() > 1                                 ? "vec4"
                                 : info.kind == Kind::INT || info.kind == Kind::CHOICE ? "int"
                                                                                       : "float",
                                 info.group, info.name);

@@ -1,6 +1,7 @@
 #pragma once
 #include "kernels/shared.h"
 #include "sim/lists.h"
+#include "sim/strand_shapes.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,6 +16,7 @@ namespace coif
 {
 
 #define COIF_MEMBER_TEXT(group, name, value) std::string group##_##name = value;
+#define COIF_MEMBER_SHAPE(group, name, value) StoredShape group##_##name;
 #define COIF_MEMBER_LIST(group, name, value) std::vector<group##_entry> group##s;
 #define COIF_PARAM(group, kind, name, value, lo, hi, unit, scope, effect, read_by, labels, help)
 #define COIF_HOST(group, kind, name, value, scope, effect, help) COIF_MEMBER_##kind(group, name, value)
@@ -34,7 +36,9 @@ enum class Kind
     CHOICE,
     VECTOR,
     COLOR,
+    PROFILE,
     TEXT,
+    SHAPE,
     LIST
 };
 enum class Scope
@@ -57,6 +61,8 @@ enum class ReadBy // ALL, or a choice of solver.kind and one more
     PBD
 };
 
+constexpr int kMostNumbers = 4; // of a parameter
+
 // One line of kernels/params.def, as data. Whatever handles parameters walks this table, so that nothing of it changes
 // when a parameter is added.
 struct ParamInfo
@@ -67,19 +73,20 @@ struct ParamInfo
     Scope scope;
     Effect effect;
     ReadBy read_by;
-    size_t offset; // into HairParams, or into HostParams for TEXT and LIST
+    size_t offset; // into HairParams, or into HostParams for TEXT, SHAPE and LIST
     float min, max;
     const char* unit;
     const char* labels; // of a CHOICE, separated by |
     const char* help;
 
     std::string path() const { return *name ? std::string(group) + "." + name : group; }
-    bool on_host() const { return kind == Kind::TEXT || kind == Kind::LIST; }
-    int components() const { return kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
+    bool on_host() const { return kind == Kind::TEXT || kind == Kind::SHAPE || kind == Kind::LIST; }
+    int components() const { return kind == Kind::PROFILE ? 4 : kind == Kind::VECTOR || kind == Kind::COLOR ? 3 : 1; }
 };
 
 // What `action` gives for the list of `host` that a LIST stands for.
 #define COIF_WITH_TEXT(list)
+#define COIF_WITH_SHAPE(list)
 #define COIF_WITH_LIST(list)                                                                                           \
     if (info.group == std::string_view(#list))                                                                         \
         return action(host.list##s);
@@ -112,15 +119,23 @@ std::string nearest_param(std::string_view path);
 // The labels of a CHOICE, in order.
 std::vector<std::string> param_labels(const ParamInfo& info);
 
-// Authored numbers of a parameter that crosses to the device; VECTOR and COLOR fill three.
-void get_numbers(const HairParams& params, const ParamInfo& info, float out[3]);
+// Authored numbers of a parameter that crosses to the device; VECTOR and COLOR fill three, PROFILE four.
+void get_numbers(const HairParams& params, const ParamInfo& info, float out[kMostNumbers]);
 
 // Takes them after checking. Throws Error "strand.length is -1, but must lie in [0.002, 1.5] m".
-void set_numbers(HairParams& params, const ParamInfo& info, const double values[3]);
+void set_numbers(HairParams& params, const ParamInfo& info, const double values[kMostNumbers]);
+
+// A profile at `along` (0 at the root, 1 at the tip): kernels/strand_curve.h, said again in double for the host.
+double profile_at(const float4& profile, double along);
+float most_of(const float4& profile); // of its four numbers
+float least_of(const float4& profile);
 
 // Are the waves that `params` asks for bends of the strands themselves, and not laid on when they are drawn? They are
 // where eight nodes or more make a wave, and the solver knows bends.
 bool waves_are_shape(const HairParams& params);
+bool curls_are_shape(const HairParams& params); // the same of curls
+
+bool has_clumps(const HairParams& params);
 
 // Linear light for a component of an sRGB colour (IEC 61966-2-1).
 float linear_of_srgb(float component);

@@ -135,8 +135,11 @@ static std::vector<double> stiffnesses(const HairParams& params, int nodes, int 
     const int links = nodes - 2;
     std::vector<double> of(size_t(nodes), 0.0);
     for (int e = 1; e + 1 < nodes; ++e)
-        of[size_t(e)] =
-            all * (e == held - 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * (e - 1) / links);
+    {
+        const double along = double(e - 1) / links;
+        of[size_t(e)] = all * (e == held - 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * along) *
+                        profile_at(params.bending_along, along);
+    }
     return of;
 }
 
@@ -155,7 +158,8 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
     const Vec gravity(0.0, -kGravity * params.forces_gravity, 0.0);
     const double tightest = std::max(tightest_of(groom.natural_position, groom),
                                      hold > 0.0 ? tightest_of(groom.rest_position, groom) : 0.0);
-    const double share = explicit_share(tightest);
+    // Where the profile makes it stiffer there is that much more to follow.
+    const double share = explicit_share(tightest) * std::max(1.0, double(most_of(params.bending_along)));
     if (tightest > 1e-5)
         shape.bend_most = 1.0 / (share * kFinest * kFinest);
     for (int s = 0; s < groom.blocks * LANES; ++s)

@@ -48,6 +48,8 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed(style, "interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+    if (const auto& rest = style.host.groom_rest.shapes; rest && size_t(rest->strands()) != assets.scalp.positions.size())
+        placed(style, "groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
             for (size_t i = 0; i < with_list(
@@ -157,10 +159,19 @@ std::string doubtful_ties(const Hairstyle& style, const Groom& groom)
     return said;
 }
 
-static bool same_waves(const Hairstyle& a, const Hairstyle& b)
+static bool same_group(const char* group, const Hairstyle& a, const Hairstyle& b)
 {
     return std::ranges::all_of(param_table(), [&](const ParamInfo& info)
-                               { return info.group != std::string_view("wave") || same_value(a, b, info); });
+                               { return info.group != std::string_view(group) || same_value(a, b, info); });
+}
+
+// Do the shapes that strands are grown in differ, or is there now something to grow that there was not?
+static bool grown_otherwise(const Hairstyle& a, const Hairstyle& b)
+{
+    const bool waves = waves_are_shape(a.params), curls = curls_are_shape(a.params);
+    return waves != waves_are_shape(b.params) || curls != curls_are_shape(b.params) ||
+           ((waves || curls) && !same_group("wave", a, b)) || (curls && !same_group("curl", a, b)) ||
+           has_clumps(a.params) != has_clumps(b.params);
 }
 
 Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), authored_(std::move(style))
@@ -184,7 +195,7 @@ void Simulation::set_bodies(const Hairstyle& style)
 // What hair holds of that shape (bending.hold) it finds again with its own weight on it.
 void Simulation::drape()
 {
-    if (style_.params.solver_kind != 0)
+    if (style_.params.solver_kind != 0 || style_.host.groom_rest.shapes) // which is where it rests
         return;
     HairParams own = style_.params;
     own.solver_courant = std::max(own.solver_courant, 1.0f); // where hair rests does not hang on the substeps
@@ -252,8 +263,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     for (const ParamInfo& info : param_table())
         regrow |= !same_value(style, style_, info) && ((info.effect != Effect::LIVE && info.effect != Effect::VIEW) ||
                                                        (varied && info.scope == Scope::STRAND));
-    const bool waves = waves_are_shape(style.params);
-    regrow |= waves != waves_are_shape(style_.params) || (waves && !same_waves(style, style_));
+    regrow |= grown_otherwise(style, style_);
     // Held hair is laid in segments of the length that spacing gives them.
     regrow |= !style.host.ties.empty() && style.params.strand_spacing != style_.params.strand_spacing;
     bool refall = false;
@@ -263,8 +273,10 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
-        refall = groom.guides != old.guides || groom.nodes != old.nodes || (held && style.params.solver_kind == 0);
-        if (!refall)
+        const bool stored = style.host.groom_rest.shapes || style_.host.groom_rest.shapes;
+        refall = groom.guides != old.guides || groom.nodes != old.nodes ||
+                 (held && style.params.solver_kind == 0 && !stored);
+        if (!refall && groom.rest_position.empty())
         {
             keep_rest(groom, old);
         }
@@ -365,6 +377,15 @@ void Simulation::settle(double seconds)
             solver_->take_times(); // lets the queue's uploads go
     }
     motion_ = motion;
+}
+
+StrandShapes Simulation::shapes() const
+{
+    const Mapped position = solver_->guide_positions();
+    StrandShapes shapes = shapes_of(in_head_frame(position.as<float>(), solver_->groom(), solver_->head().turn),
+                                    solver_->groom(), style_.params.head_scale);
+    shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes)); // a refined scalp's own come first
+    return shapes;
 }
 
 void Simulation::reset() { solver_->reset(solver_->head()); }

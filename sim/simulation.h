@@ -82,6 +82,8 @@ class Simulation
 
     // Steps without looking, so that hair hangs when it is first seen.
     void settle(double seconds);
+    // The guides as they lie now, for groom.rest: those at the authored scalp's vertices.
+    StrandShapes shapes() const;
     void reset(); // hair to its rest shape, where the head is
 
     double step_seconds() const;

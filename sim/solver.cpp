@@ -61,7 +61,7 @@ void Solver::set_params(const HairParams& params)
     const auto shaping = [](const HairParams& p)
     {
         return std::tuple(p.strand_spacing, p.bending_droop, p.bending_modulus, p.bending_diameter,
-                          p.bending_attenuation, p.forces_gravity);
+                          p.bending_attenuation, p.bending_along, p.forces_gravity);
     };
     const bool reshaped = shaping(wanted) != shaping(params_);
     changed_ |= memcmp(&wanted, &params_, sizeof wanted) != 0;

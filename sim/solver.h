@@ -28,6 +28,8 @@ class Solver
     Solver(const Device& device, const HairParams& params, const Groom& groom, const Pose& head);
 
     void set_params(const HairParams& params);
+    void
+    reload_kernels(); // builds those in use anew from their files; where one fails, throws and all stay as they are
     // Takes new roots and weights. Strands keep their motion if guides and nodes are as many as before.
     void set_groom(const Groom& groom);
     Solver(const Solver&) = delete;

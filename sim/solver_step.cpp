@@ -40,6 +40,16 @@ Kernel& Solver::kernel(const std::string& file, const std::string& extra)
     return found->second;
 }
 
+void Solver::reload_kernels()
+{
+    std::map<std::string, Kernel> fresh;
+    for (const auto& [key, old] : kernels_) // by file and options
+        fresh[key] = load_kernel(device_, key.substr(0, key.find(' ')), key.substr(key.find(' ') + 1));
+    device_.queue.finish();
+    kernels_ = std::move(fresh);
+    changed_ = true;
+}
+
 void Solver::launch(const std::string& pass, const std::string& extra, size_t items, size_t group)
 {
     if (items == 0)
@@ -133,7 +143,8 @@ bool Solver::stands_rigid(const StepInfo& info)
 {
     constexpr double kStiff = 0.1, kWithin = 0.001; // droop number; m
     const double load = std::abs(double(info.gravity)) + double(info.wind.w) * (1.0 + double(info.gust_origin.w));
-    const double softest = *std::min_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    const double softest =
+        *std::min_element(groom_.bend_factor.begin(), groom_.bend_factor.end()) * least_of(params_.bending_along);
     if (params_.bending_modulus > 0.0f || params_.bending_droop * std::max(1.0, load / kGravity) >= kStiff * softest)
         return false;
     if (!rest_clear_)
@@ -155,7 +166,8 @@ void Solver::simulate_direct(const StepInfo& info)
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
     // Softer than this, what bending there is lies within half a segment of the root: not seen by the nodes.
     const double links = groom_.nodes - 2;
-    const double stiffest = *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end());
+    const double stiffest =
+        *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end()) * most_of(params_.bending_along);
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links * stiffest;
     const bool contact = !colliders_.empty() || body_.grid;
     if (stands_rigid(info))
@@ -264,8 +276,9 @@ void Solver::draw()
                                    int(colliders_.size()), true, body_);
     upload(info);
     const std::string options =
-        fmt::format("{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
-                    groom_.looks.empty() ? "" : "-D VARIED ");
+        fmt::format("{}{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
+                    groom_.looks.empty() ? "" : "-D VARIED ",
+                    params_.flyaway_share > 0.0f && params_.flyaway_distance > 0.0f ? "-D FLYAWAY " : "");
     const bool braids = std::any_of(groom_.tails.begin(), groom_.tails.end(), [](auto& t) { return t.axis.w > 0.0f; });
     const std::string braided = braids ? "-D BRAIDED " : "";
     if (has_shadow())
@@ -285,7 +298,9 @@ void Solver::draw()
     launch_strands("interpolate_multi", options + (groom_.tied.empty() ? "" : "-D TIED " + braided),
                    size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
-    launch_strands("transport_frames", braided, groom_.drawn.size());
+    if (has_clumps(params_))
+        launch_strands("clump", fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "), groom_.drawn.size());
+    launch_strands("transport_frames", braided + (has_clumps(params_) ? "-D CLUMPS " : ""), groom_.drawn.size());
 }
 
 double sum_of(const PassTimes& times)

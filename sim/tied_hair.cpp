@@ -387,13 +387,18 @@ static bool mix_within(DrawnStrand& strand, const std::vector<TiedGuide>& tied, 
     int guides[3] = {strand.guide0, strand.guide1, strand.guide2};
     float weights[3] = {strand.weights.x, strand.weights.y, strand.weights.z};
     float sum = 0.0f;
+    int any = -1;
     for (int i = 0; i < 3; ++i)
     {
-        weights[i] = tied[size_t(guides[i])].tie == wanted ? std::max(weights[i], 1e-4f) : 0.0f;
+        const bool goes = tied[size_t(guides[i])].tie == wanted;
+        any = goes ? i : any;
+        weights[i] = goes ? weights[i] : 0.0f;
         sum += weights[i];
     }
-    if (!(sum > 0.0f))
+    if (any < 0)
         return false;
+    if (!(sum > 0.0f))
+        sum = weights[any] = 1.0f;
     int order[3] = {0, 1, 2};
     std::stable_sort(order, order + 3, [&](int i, int j) { return weights[i] > weights[j]; });
     for (const int i : {1, 2}) // a guide without weight is the heaviest: its nodes must not come into it
@@ -402,7 +407,7 @@ static bool mix_within(DrawnStrand& strand, const std::vector<TiedGuide>& tied, 
     strand.guide0 = guides[order[0]];
     strand.guide1 = guides[order[1]];
     strand.guide2 = guides[order[2]];
-    strand.weights = F4(weights[order[0]] / sum, weights[order[1]] / sum, weights[order[2]] / sum, 0.0f);
+    strand.weights = F4(weights[order[0]] / sum, weights[order[1]] / sum, weights[order[2]] / sum, strand.weights.w);
     return true;
 }
 
@@ -425,7 +430,9 @@ static DrawnStrand mixed_copy(const DrawnStrand& copy, const Scalp& scalp, const
         params.head_scale;
     DrawnStrand mixed = mixed_of(directions, t, weights);
     mixed.root = F4(root.x, root.y, root.z, copy.root.w);
+    mixed.weights.w = copy.weights.w;
     mixed.seed = copy.seed;
+    mixed.leader = copy.leader;
     return mixed;
 }
 
@@ -442,6 +449,7 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
 
     std::vector<DrawnStrand> mixed, copies;
     std::vector<StrandLook> mixed_looks, copied_looks;
+    std::vector<int> mixed_from, copied_from; // their numbers before
     for (size_t i = 0; i < groom.drawn.size(); ++i)
     {
         DrawnStrand strand = groom.drawn[i];
@@ -450,6 +458,7 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
         if (copy && (own < 0 || triangles[size_t(strand.guide0)].empty()))
         {
             copies.push_back(strand);
+            copied_from.push_back(int(i));
             if (!groom.looks.empty())
                 copied_looks.push_back(groom.looks[i]);
             continue;
@@ -460,6 +469,7 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
         if (!known || !mix_within(strand, tied, roots.drawn[i]))
             mix_within(strand, tied, tied[size_t(strand.guide0)].tie);
         mixed.push_back(strand);
+        mixed_from.push_back(int(i));
         if (!groom.looks.empty())
             mixed_looks.push_back(groom.looks[i]);
     }
@@ -492,6 +502,18 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
     }
     groom.drawn = std::move(mixed);
     groom.drawn.insert(groom.drawn.end(), copies.begin(), copies.end());
+    // Leaders of clumps have new numbers, and lead the strands of their own tie only.
+    std::vector<int> number(groom.drawn.size());
+    mixed_from.insert(mixed_from.end(), copied_from.begin(), copied_from.end());
+    for (size_t i = 0; i < number.size(); ++i)
+        number[size_t(mixed_from[i])] = int(i);
+    const auto tail = [&](int i)
+    { return i < groom.drawn_multi && groom.tied[size_t(i)].ring > 0.0f ? groom.tied[size_t(i)].tail : -1; };
+    for (size_t i = 0; i < groom.drawn.size(); ++i)
+    {
+        const int leader = number[size_t(groom.drawn[i].leader)];
+        groom.drawn[i].leader = tail(leader) == tail(int(i)) ? leader : int(i);
+    }
 }
 
 // ---- all of it
@@ -579,6 +601,12 @@ void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, con
                 vec3(vector_at(groom.natural_position.data(), 0, k, groom.nodes)));
     }
     tie_drawn(groom, params, scalp, roots, tied);
+    if (!groom.rest_position.empty()) // as it was once frozen: what is held goes where the rings are now
+    {
+        const std::vector<float> multiplier = groom.rest_multiplier;
+        keep_rest(groom, Groom(groom));
+        groom.rest_multiplier = multiplier;
+    }
 }
 
 void keep_rest(Groom& groom, const Groom& old)

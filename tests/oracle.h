@@ -114,13 +114,27 @@ std::vector<double> depth_in_head(const Body& body, int resolution, const StepIn
 Vec out_of_union(Vec p, const std::vector<Capsule>& colliders, double room);
 Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info);
 
-// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, out of the colliders. Light apart.
-std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                   const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body = {});
-std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                    const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body = {});
+// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, let fly away if it is one that does (its
+// number tells whether it leads a clump), out of the colliders. Light apart.
+std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, int number,
+                                   const HairParams& params, const std::vector<Capsule>& colliders,
+                                   const StepInfo& info, const Body& body = {});
+std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, int number,
+                                    const HairParams& params, const std::vector<Capsule>& colliders,
+                                    const StepInfo& info, const Body& body = {});
 
-// Room that a drawn strand's node keeps from colliders, m: clearance, its layer, its waves.
+// A strand drawn towards the one that leads its clump, as clump.along and the others say; and how much of
+// the leader's light it gets at each node.
+struct Clumped
+{
+    std::vector<Vec> node;
+    std::vector<double> share;
+};
+Clumped clump(const std::vector<Vec>& own, const std::vector<Vec>& leader, const DrawnStrand& strand, int number,
+              double leaders_cut, const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
+              const Body& body = {});
+
+// Room that a drawn strand's node keeps from colliders, m: clearance, its layer, what is laid on it.
 double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info);
 
 // Parallel transport of a normal, Bergou et al. 2008, by Rodrigues' rotations; and the length up to each node.
@@ -136,5 +150,12 @@ void curve_weights(int curve, double t, double weights[4]);
 double wave_onset(double along, double begin);
 double strand_random(int seed, int purpose);
 double wave_place(int seed, double distance, double frequency, double randomness);
+double profile_at(const float4& profile, double along);
+struct Across // a strand, along its frame's normal and binormal
+{
+    double normal, binormal;
+};
+Across curl_at(int together, double begin, double distance, double pitch, double variation, int hand);
+Across frizz_at(int seed, double distance, double frequency);
 
 } // namespace coif::oracle

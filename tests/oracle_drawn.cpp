@@ -144,7 +144,9 @@ double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams&
     const double layer = params.interpolation_layer * strand_random(strand.seed, 4) * std::min(1.0, 4.0 * along);
     const double n = params.wave_normal_amplitude * wave_onset(along, params.wave_normal_begin);
     const double b = params.wave_binormal_amplitude * wave_onset(along, params.wave_binormal_begin);
-    return info.clearance + layer + std::hypot(n, b);
+    const double curl = params.curl_radius * wave_onset(along, params.curl_begin);
+    const double frizz = params.frizz_amount * (2.0 * along - along * along);
+    return info.clearance + layer + oracle::profile_at(params.wave_along, along) * (std::hypot(n, b) + curl + frizz);
 }
 
 // Along the mean of the ways out of the spheres that hold it, weighed by squared depth, until no sphere holds it.
@@ -244,8 +246,42 @@ static Vec out_of_all(Vec p, const std::vector<Capsule>& colliders, const Body& 
     return out_of_body(out, body, room, info);
 }
 
-static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, const HairParams& params,
-                                 const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
+static bool flies_away(const DrawnStrand& strand, int number, const HairParams& params)
+{
+    const bool leads = params.clump_strength > 0.0f && strand.leader == number;
+    return params.flyaway_distance > 0.0f && strand_random(strand.seed, 12) < params.flyaway_share && !leads;
+}
+
+// Off its way by a smooth step from where it leaves it on, no faster than over half as long a way; segments keep their
+// lengths, one after the other.
+static std::vector<Vec> flown_away(const std::vector<Vec>& node, const DrawnStrand& strand, const HairParams& params,
+                                   const StepInfo& info)
+{
+    const int n = int(node.size());
+    const auto random = [&](int of) { return strand_random(strand.seed, 12 + of); };
+    const double begin = random(2) / 2.0, over = 0.2 + 0.6 * random(3);
+    const Vec own = to_world(info, 2.0 * Vec(random(4), random(5), random(6)) - 1.0);
+    double length = 0.0;
+    for (int k = 2; k < n; ++k)
+        length += glm::distance(node[size_t(k)], node[size_t(k - 1)]);
+    const double reach = std::min(params.flyaway_distance * (0.2 + 0.8 * random(1)), over * length / 2.0);
+    std::vector<Vec> out = node;
+    for (int k = 2; k < n; ++k)
+    {
+        const double along = (k - 1.0) / (n - 2.0), t = std::clamp((along - begin) / over, 0.0, 1.0);
+        const Vec up = glm::normalize(node[size_t(k)] - to_world(info, xyz(info.head_center)));
+        const double sway = 0.5 * std::sin(2.0 * std::numbers::pi * (random(3) + along));
+        const Vec way = 0.7 * up + 0.5 * own + sway * glm::cross(up, own);
+        const Vec to = node[size_t(k)] + reach * (3.0 * t * t - 2.0 * t * t * t) * way;
+        out[size_t(k)] = out[size_t(k - 1)] +
+                         glm::normalize(to - out[size_t(k - 1)]) * glm::distance(node[size_t(k)], node[size_t(k - 1)]);
+    }
+    return out;
+}
+
+static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, int number,
+                                 const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
+                                 const Body& body)
 {
     const int n = int(node.size());
     std::vector<Vec> out = node;
@@ -257,13 +293,60 @@ static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand
         curve_weights(3, at - i, w);
         const Vec cut = w[0] * node[size_t(i - 1)] + w[1] * node[size_t(i)] + w[2] * node[size_t(i + 1)] +
                         w[3] * node[size_t(std::min(i + 2, n - 1))];
-        out[size_t(k)] = out_of_all(cut, colliders, body, room_at(k, n, strand, params, info), info);
+        out[size_t(k)] = cut;
     }
+    if (flies_away(strand, number, params))
+        out = flown_away(out, strand, params, info);
+    for (int k = 2; k < n; ++k)
+        out[size_t(k)] = out_of_all(out[size_t(k)], colliders, body, room_at(k, n, strand, params, info), info);
     return out;
 }
 
-std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                   const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
+Clumped clump(const std::vector<Vec>& own, const std::vector<Vec>& leader, const DrawnStrand& strand, int number,
+              double leaders_cut, const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
+              const Body& body)
+{
+    const int n = int(own.size());
+    Clumped clumped = {own, std::vector<double>(size_t(n), 0.0)};
+    if (strand.leader == number || flies_away(strand, number, params))
+        return clumped;
+    // Where the leader is as far from its root as node k of the strand is; straight on beyond its tip.
+    const auto led = [&](int k)
+    {
+        const double ahead = strand.weights.w / glm::distance(leader[2], leader[1]);
+        const double at = std::max(1.0, 1.0 + ahead + (k - 1.0) * strand.root.w / leaders_cut);
+        if (at >= n - 1.0)
+            return leader[size_t(n - 1)] + (at - (n - 1.0)) * (leader[size_t(n - 1)] - leader[size_t(n - 2)]);
+        const int i = int(at);
+        double w[4];
+        curve_weights(3, at - i, w);
+        return w[0] * leader[size_t(i - 1)] + w[1] * leader[size_t(i)] + w[2] * leader[size_t(i + 1)] +
+               w[3] * leader[size_t(std::min(i + 2, n - 1))];
+    };
+    const auto apart = [&](int k) { return glm::distance(own[size_t(k)], led(k)); };
+    const double parted = std::max(apart((n + 1) / 2), apart(n - 1)) - glm::distance(own[1], leader[1]);
+    const double t = std::clamp((parted / double(info.parting) - 2.0) / 4.0, 0.0, 1.0);
+    const double strength = params.clump_strength * (1.0 - params.clump_variation * strand_random(strand.seed, 11)) *
+                            (1.0 - t * t * (3.0 - 2.0 * t));
+    if (strength <= 0.0)
+        return clumped;
+    for (int k = 2; k < n; ++k)
+    {
+        clumped.share[size_t(k)] = strength * oracle::profile_at(params.clump_along, (k - 1.0) / (n - 2.0));
+        const Vec to = glm::mix(own[size_t(k)], led(k), clumped.share[size_t(k)]) - clumped.node[size_t(k - 1)];
+        const double rest = glm::distance(own[size_t(k)], own[size_t(k - 1)]);
+        clumped.node[size_t(k)] =
+            clumped.node[size_t(k - 1)] + glm::normalize(to) * std::clamp(glm::length(to), 0.8 * rest, rest);
+    }
+    for (int k = 2; k < n; ++k)
+        clumped.node[size_t(k)] =
+            out_of_all(clumped.node[size_t(k)], colliders, body, room_at(k, n, strand, params, info), info);
+    return clumped;
+}
+
+std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, int number,
+                                   const HairParams& params, const std::vector<Capsule>& colliders,
+                                   const StepInfo& info, const Body& body)
 {
     const int n = guides.nodes;
     const int of[3] = {strand.guide0, strand.guide1, strand.guide2};
@@ -285,11 +368,12 @@ std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& str
         for (int g = 0; g < 3; ++g)
             node[size_t(k)] +=
                 weight[g] * (guides.position[size_t(of[g] * n + k)] - guides.position[size_t(of[g] * n + 1)]);
-    return finished(node, strand, params, colliders, info, body);
+    return finished(node, strand, number, params, colliders, info, body);
 }
 
-std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, const HairParams& params,
-                                    const std::vector<Capsule>& colliders, const StepInfo& info, const Body& body)
+std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, int number,
+                                    const HairParams& params, const std::vector<Capsule>& colliders,
+                                    const StepInfo& info, const Body& body)
 {
     const int n = guides.nodes;
     const glm::dquat turn =
@@ -301,7 +385,7 @@ std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& st
         const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - center;
         node.push_back(to_world(info, turn * own + center));
     }
-    return finished(node, strand, params, colliders, info, body);
+    return finished(node, strand, number, params, colliders, info, body);
 }
 
 std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInfo& info)
@@ -368,6 +452,38 @@ double wave_place(int seed, double distance, double frequency, double randomness
     const double shift = randomness * strand_random(seed, 2);
     const double table = randomness > 0.0 ? std::floor(32.0 * strand_random(seed, 3)) : 0.0;
     return (distance * frequency + shift + table) / 32.0;
+}
+
+double profile_at(const float4& profile, double along)
+{
+    const double of[4] = {profile.x, profile.y, profile.z, profile.w};
+    const int piece = std::clamp(int(3.0 * along), 0, 2);
+    const double t = 3.0 * along - piece;
+    return of[piece] * (1.0 - t) + of[piece + 1] * t;
+}
+
+Across curl_at(int together, double begin, double distance, double pitch, double variation, int hand)
+{
+    const double less = variation * strand_random(together, 7);
+    const bool left = hand == 2 ? strand_random(together, 8) < 0.5 : hand == 1;
+    const double angle =
+        2.0 * std::numbers::pi * (begin + (left ? -1.0 : 1.0) * distance / (pitch * (1.0 - less / 2.0)));
+    return {(1.0 - less) * std::cos(angle), (1.0 - less) * std::sin(angle)};
+}
+
+Across frizz_at(int seed, double distance, double frequency)
+{
+    const double most = strand_random(seed, 9), place = distance * frequency + strand_random(seed, 10);
+    const auto noise = [&](int side, double at)
+    {
+        const int cell = int(std::floor(at));
+        const double t = at - cell, s = 3.0 * t * t - 2.0 * t * t * t;
+        return 2.0 * ((1.0 - s) * strand_random(seed, 256 + 2 * cell + side) +
+                      s * strand_random(seed, 258 + 2 * cell + side)) -
+               1.0;
+    };
+    const double own = (0.2 + 0.8 * most * most) / std::sqrt(2.0);
+    return {own * noise(0, place), own * noise(1, place + 0.5)};
 }
 
 } // namespace coif::oracle

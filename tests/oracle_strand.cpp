@@ -168,8 +168,9 @@ void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& 
     {
         d[size_t(e)][size_t(e - 1)] = d[size_t(e)][size_t(e + 1)] = 1.0;
         d[size_t(e)][size_t(e)] = -2.0;
-        w[size_t(e)] =
-            (e == held - 1 ? 2.0 : 1.0) * std::exp(-double(step.params.bending_attenuation) * (e - 1) / double(n - 2));
+        w[size_t(e)] = (e == held - 1 ? 2.0 : 1.0) *
+                       std::exp(-double(step.params.bending_attenuation) * (e - 1) / double(n - 2)) *
+                       oracle::profile_at(step.params.bending_along, (e - 1) / double(n - 2));
     }
     const std::vector<Vec> slope =
         bending_slope(x, w, strand.rest, step.curled, rest_bend, along, glm::normalize(normal + round(8.0)), round);

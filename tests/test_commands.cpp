@@ -54,6 +54,24 @@ TEST_F(Commands, report_writes_a_line_for_each_frame_as_csv)
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
 }
 
+TEST_F(Commands, morph_writes_the_style_between_two)
+{
+    write("a.toml", "# mine\n[strand]\nlength = 0.1 # short\n");
+    write("b.toml", "[strand]\nlength = 0.3\n[solver]\nkind = \"pbd\"\n");
+    const Result result = coif("morph a.toml b.toml --at 0.4 -o c.toml");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(contents("c.toml"), "# mine\n[strand]\nlength = 0.18 # short\n");
+    ASSERT_EQ(coif("morph a.toml b.toml --at 0.6 -o c.toml").status, 0);
+    EXPECT_NE(contents("c.toml").find("kind = \"pbd\""), std::string::npos) << contents("c.toml");
+    EXPECT_EQ(coif("check c.toml").status, 0);
+    const Result far = coif("morph a.toml b.toml --at 2 -o d.toml");
+    EXPECT_EQ(far.status, 1);
+    EXPECT_NE(far.err.find("--at 2"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "d.toml"));
+    EXPECT_EQ(coif("morph a.toml none.toml -o d.toml").status, 1);
+    EXPECT_EQ(coif("morph a.toml").status, 2);
+}
+
 TEST_F(Commands, check_tells_good_from_broken_with_its_status)
 {
     write("broken.toml", "[strand]\nlength = \"long\"\n");

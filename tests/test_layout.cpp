@@ -36,7 +36,7 @@ struct Field
     X(sweep_axis) X(sweep_from) X(sweep_sign) X(body_x) X(body_y) X(body_z)
 #define PATH_FIELDS(X) X(row) X(drag)
 #define CAPSULE_FIELDS(X) X(center) X(axis)
-#define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed)
+#define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed) X(leader)
 // clang-format on
 
 std::vector<Field> fields_of_params()

@@ -16,7 +16,7 @@ class Panel : public testing::Test
         ImGui::CreateContext();
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = {500.0f, 4000.0f}; // tall enough for every parameter
+        io.DisplaySize = {500.0f, 5000.0f}; // tall enough for every parameter
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -79,13 +79,38 @@ TEST_F(Panel, a_drag_on_a_slider_changes_that_parameter_only)
         EXPECT_TRUE(same_value(style, expected, info)) << info.path();
 }
 
+TEST_F(Panel, a_point_of_a_profile_goes_where_the_mouse_drags_it)
+{
+    frame();
+    frame();
+    const WidgetPlace place = state.places.at("look.opacity_along");
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {place.left + 0.64f * (place.right - place.left), place.top + 5.0f}; // nearest to the third
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    const float height = 3.0f * ImGui::GetFrameHeight();
+    io.MousePos = {place.left, place.top + 0.5f * height}; // stays with the third, wherever the mouse goes
+    EXPECT_TRUE(frame());
+    io.MouseDown[0] = false;
+    frame();
+    const float4 is = style.params.look_opacity_along;
+    EXPECT_NEAR(is.z, 0.5f, 0.01f);
+    EXPECT_EQ(is, F4(1.0f, 1.0f, is.z, 1.0f));
+    Hairstyle expected;
+    expected.params.look_opacity_along = is;
+    for (const ParamInfo& info : param_table())
+        EXPECT_TRUE(same_value(style, expected, info)) << info.path();
+}
+
 TEST_F(Panel, what_the_chosen_solver_does_not_read_cannot_be_moved)
 {
     for (const char* solver : {"direct", "pbd"})
     {
         style = {};
         assign(style, std::string("solver.kind=") + solver);
-        for (const char* path : {"solver.iterations", "solver.substeps", "bending.droop", "forces.drag"})
+        for (const char* path :
+             {"solver.iterations", "solver.substeps", "bending.droop", "bending.along", "forces.drag"})
             EXPECT_EQ(click(path), is_read(*find_param(path), style.params)) << path << " under " << solver;
     }
 }
@@ -105,6 +130,37 @@ TEST_F(Panel, what_differs_from_the_default_has_a_button_that_takes_it_back)
     EXPECT_TRUE(frame());
     EXPECT_EQ(style.params.root_lift, Hairstyle().params.root_lift);
     EXPECT_FALSE(style.places.contains("root.lift"));
+}
+
+TEST_F(Panel, groups_fold_and_what_is_looked_for_is_shown_all_the_same)
+{
+    frame();
+    click("group strand");
+    frame();
+    EXPECT_EQ(state.folded, std::set<std::string>{"strand"});
+    EXPECT_FALSE(state.places.contains("strand.length"));
+    EXPECT_TRUE(state.places.contains("root.lift"));
+    snprintf(state.filter, sizeof state.filter, "LENGTH OF A STRAND"); // what its help says
+    frame();
+    EXPECT_TRUE(state.places.contains("strand.length"));
+    EXPECT_FALSE(state.places.contains("root.lift"));
+    state.filter[0] = 0;
+    frame();
+    EXPECT_FALSE(state.places.contains("strand.length")) << "it is folded still";
+    click("group strand");
+    frame();
+    EXPECT_TRUE(state.folded.empty());
+}
+
+TEST_F(Panel, dice_are_thrown_within_the_locks)
+{
+    const Hairstyle first = style;
+    state.locked = {"strand.length"};
+    EXPECT_TRUE(click("randomise"));
+    EXPECT_EQ(state.done, "randomise, seed 1");
+    EXPECT_EQ(state.seed, 2);
+    EXPECT_EQ(style.params.strand_length, first.params.strand_length);
+    EXPECT_NE(style.params.root_lift, first.params.root_lift);
 }
 
 TEST_F(Panel, the_filter_leaves_what_contains_it)

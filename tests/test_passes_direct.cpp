@@ -406,6 +406,7 @@ void curls(HairParams& p)
 {
     p.bending_droop = 5.0f;
     p.bending_attenuation = 1.0f;
+    p.bending_along = F4(1.5f, 0.5f, 1.0f, 0.25f);
     p.forces_friction = 0.5f;
     p.forces_repulsion = 20.0f; // some of it beyond its bound
     p.solver_courant = 1.5f;

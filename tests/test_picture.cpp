@@ -204,12 +204,20 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
     // Waves and the light's shadow give all of them something to act on; one multisample more is nothing to see where
     // a software renderer is asked for what it does anyway.
     const std::initializer_list<const char*> base = {"wave.normal_amplitude=0.01", "wave.binormal_amplitude=0.01",
+                                                     "curl.radius=0.01", "frizz.amount=0.005",
                                                      "smoothing.subdivisions=4"};
     const FrameInput before = frame_of(small_style(base));
     const Image reference = renderer->picture(before, 160, 90);
     EXPECT_TRUE(renderer->picture(before, 160, 90).pixels == reference.pixels);
-    const std::vector<std::string> in_shaders_only = {"wave.normal_frequency", "wave.normal_randomness",
-                                                      "wave.binormal_frequency", "wave.binormal_randomness",
+    const std::vector<std::string> in_shaders_only = {"wave.normal_frequency",
+                                                      "wave.normal_randomness",
+                                                      "wave.binormal_frequency",
+                                                      "wave.binormal_randomness",
+                                                      "curl.pitch",
+                                                      "curl.hand",
+                                                      "curl.phase",
+                                                      "curl.variation",
+                                                      "frizz.frequency",
                                                       "head.mesh_scale"};
     int acting = 0;
     for (const ParamInfo& info : param_table())
@@ -218,9 +226,9 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
         if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample")
             continue;
         Hairstyle style = small_style(base);
-        float now[3];
+        float now[kMostNumbers];
         get_numbers(style.params, info, now);
-        double other[3];
+        double other[kMostNumbers];
         for (int i = 0; i < info.components(); ++i)
             other[i] = info.kind == Kind::INT || info.kind == Kind::CHOICE ? now[i] + (now[i] < info.max ? 1 : -1)
                        : info.kind == Kind::VECTOR                         ? now[i] + 0.05

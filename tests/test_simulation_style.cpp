@@ -23,7 +23,8 @@ Hairstyle busy_style()
     Hairstyle style;
     for (const char* set : {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "grid.blur=0.05",
                             "forces.wind=[3, 0, 1]", "forces.repulsion=1", "wave.normal_amplitude=0.01",
-                            "wave.binormal_amplitude=0.008", "interpolation.layer=0.01"})
+                            "wave.binormal_amplitude=0.008", "interpolation.layer=0.01", "curl.radius=0.005",
+                            "frizz.amount=0.002", "flyaway.share=0.2", "clump.strength=0.5"})
         assign(style, set);
     return style;
 }
@@ -55,9 +56,9 @@ void set_other(Hairstyle& style, const ParamInfo& info)
     const std::map<std::string, const char*> far = {{"solver.courant", "0.1"}, {"solver.substeps", "16"}};
     if (const auto found = far.find(info.path()); found != far.end())
         return assign(style, info.path() + "=" + found->second);
-    float now[3];
+    float now[kMostNumbers];
     get_numbers(style.params, info, now);
-    double other[3];
+    double other[kMostNumbers];
     for (int i = 0; i < info.components(); ++i)
         if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
             other[i] = now[i] + (now[i] < info.max ? 1.0 : -1.0);
@@ -78,6 +79,11 @@ TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther
                                              "wave.normal_randomness",
                                              "wave.binormal_frequency",
                                              "wave.binormal_randomness",
+                                             "curl.pitch",
+                                             "curl.hand",
+                                             "curl.phase",
+                                             "curl.variation",
+                                             "frizz.frequency",
                                              "interpolation.guides",
                                              "head.contact"};
     struct Settled

@@ -71,6 +71,10 @@ static const Switch kSwitches[] = {
     {"wind", {"forces.wind=[0,0,0]"}, always},
     {"gusts", {"forces.turbulence=0"}, in_wind},
     {"waves", {"wave.normal_amplitude=0", "wave.binormal_amplitude=0"}, always},
+    {"curls", {"curl.radius=0"}, always},
+    {"frizz", {"frizz.amount=0"}, always},
+    {"fly-aways", {"flyaway.share=0"}, always},
+    {"clumps", {"clump.strength=0"}, always},
 };
 
 static const Count kCounts[] = {
@@ -97,7 +101,7 @@ static Hairstyle switched_off(Hairstyle style, const Switch& feature)
 
 static double number(const Hairstyle& style, const char* path)
 {
-    float value[3] = {};
+    float value[kMostNumbers] = {};
     get_numbers(style.params, *find_param(path), value);
     return double(value[0]);
 }
@@ -106,7 +110,7 @@ static double number(const Hairstyle& style, const char* path)
 static void set_number(Hairstyle& style, const char* path, double value)
 {
     const ParamInfo& info = *find_param(path);
-    const double values[3] = {
+    const double values[kMostNumbers] = {
         std::clamp(info.kind == Kind::INT ? std::round(value) : value, double(info.min), double(info.max))};
     set_numbers(style.params, info, values);
 }

@@ -40,7 +40,7 @@ std::string solver_name(const HairParams& params)
     const ParamInfo* kind = find_param("solver.kind");
     if (!kind)
         return "pbd";
-    float index[3];
+    float index[kMostNumbers];
     get_numbers(params, *kind, index);
     return param_labels(*kind)[size_t(index[0])];
 }

@@ -31,8 +31,8 @@ Outcome bad_input(const Ground& ground)
             continue;
         for (std::string value : {"nan", "-nan", "inf", "-inf", "1e39", "-1e39", "1e400", "'x y'", "[]", "{}"})
         {
-            if (info.components() == 3 && value != "[]")
-                value = fmt::format("[0.0, {}, 0.0]", value);
+            if (info.components() > 1 && value != "[]")
+                value = fmt::format("[0.0, {}, 0.0{}]", value, info.kind == Kind::PROFILE ? ", 0.0" : "");
             const std::string line = fmt::format("{} = {}", info.name, value);
             refused(info.group + (" " + line), ".toml:3:",
                     [&] { parse_hairstyle(fmt::format("# a style\n[{}]\n{}\n", info.group, line), "bad.toml"); });

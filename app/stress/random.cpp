@@ -3,6 +3,7 @@
 #include "app/stress/random_style.h"
 #include "sim/error.h"
 
+#include <chrono>
 #include <cmath>
 
 namespace coif::stress
@@ -40,7 +41,7 @@ Outcome random_styles(const Ground& ground)
     const fs::path folder = ground.folder / "random";
     fs::create_directories(folder);
     write_file(folder / "scalp.obj", small_scalp());
-    std::string csv = "number,solver,rate,nodes,passed,stretch,penetration_mm,reach,finite,resets,fault\n";
+    std::string csv = "number,solver,rate,nodes,passed,stretch,penetration_mm,reach,finite,resets,seconds,fault\n";
     long failed = 0;
     for (int number = 0; number < ground.styles; ++number)
     {
@@ -53,6 +54,7 @@ Outcome random_styles(const Ground& ground)
         {
             style.params.solver_kind = kind;
             Outcome one;
+            const auto began = std::chrono::steady_clock::now();
             const Figures figures = play(ground, style, motion);
             // Rubber is bounded by MOST_RUBBER of kernels/simulate_pbd.cl.
             judge(one, kind, fmt::format("seed {} style {}", ground.seed, number), figures,
@@ -60,11 +62,12 @@ Outcome random_styles(const Ground& ground)
             for (const std::string& trespass : find_trespasses(ground.device))
                 one.faults.push_back(
                     fmt::format("seed {} style {}, {}: {}", ground.seed, number, kSolvers[kind], trespass));
+            const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
             add(outcome.figures[kind], figures);
-            csv += fmt::format("{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n", number, kSolvers[kind],
+            csv += fmt::format("{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f},\"{}\"\n", number, kSolvers[kind],
                                style.params.solver_rate, style.params.strand_nodes, one.faults.empty(), figures.stretch,
                                1e3 * figures.penetration, figures.reach, figures.finite, figures.resets,
-                               one.faults.empty() ? "" : one.faults.front());
+                               seconds.count(), one.faults.empty() ? "" : one.faults.front());
             if (one.faults.empty())
                 continue;
             ++failed;

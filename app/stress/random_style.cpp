@@ -69,8 +69,8 @@ Hairstyle random_style(int seed, int number, const std::string& scalp)
     {
         if (info.on_host())
             continue;
-        double values[3];
-        for (int i = 0; i < 3; ++i)
+        double values[kMostNumbers];
+        for (int i = 0; i < std::max(3, info.components()); ++i)
         {
             values[i] = draw_number(draw, info);
             if (info.kind == Kind::INT || info.kind == Kind::CHOICE)
@@ -85,7 +85,11 @@ Hairstyle random_style(int seed, int number, const std::string& scalp)
     style.params.strand_nodes = nodes;
     style.params.grid_resolution = resolution;
     style.params.interpolation_strands = draw.below(65);
-    style.params.interpolation_refine = 0; // thousands of guides would take hours, and tell no more of a strand
+    // A tolerance measures for as long as a style is played, and chooses node counts and thousands of guides unless the
+    // style says its own; those tell no more of a strand.
+    if (!draw.once_in(10))
+        style.params.quality_tolerance = 0.0f;
+    style.params.interpolation_refine = style.params.quality_tolerance > 0.0f || draw.once_in(8) ? 1 : 0;
     // Coupled by the grid, or by none of its passes, as often as not.
     if (draw.once_in(2))
         style.params.forces_repulsion = style.params.look_self_shadow = 0.0f;

@@ -56,6 +56,11 @@ TEST(BrokenStyle, is_told_with_file_line_column_and_what_would_be_right)
          "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
         {"[forces]\nwind = [1, 2, \"3\"]\n",
          "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
+        {"[look]\nwidth_along = [1, 0.5, 0]\n",
+         "bob.toml:2:15: look.width_along must be four numbers from root to tip, like [1.0, 1.0, 0.5, 0.0], not 3"},
+        {"[look]\nwidth_along = 1\n", "bob.toml:2:15: look.width_along must be four numbers from root to tip, like "
+                                      "[1.0, 1.0, 0.5, 0.0], not a number"},
+        {"[look]\nopacity_along = [1, 1, 1, 2]\n", "bob.toml:2:17: look.opacity_along is 2, but must lie in [0, 1]"},
         {"[look]\ntip_color = \"red\"\n",
          "bob.toml:2:13: look.tip_color must be a colour like \"#8a5a3c\" or three numbers from 0 to 1, not text"},
         {"[look]\ntip_color = \"#12345\"\n",

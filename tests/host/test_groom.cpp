@@ -303,17 +303,17 @@ TEST(Groom, a_parting_divides_left_from_right)
 TEST(Groom, the_last_blocks_spare_lanes_are_the_first_guide)
 {
     const Groom groom = grow({}, whole_scalp());
-    ASSERT_EQ(groom.guides, 248);
+    ASSERT_EQ(groom.guides, 252);
     ASSERT_EQ(groom.blocks, 16);
     ASSERT_EQ(groom.root_position.size(), 16u * 3 * 16);
     ASSERT_EQ(groom.segment_length.size(), 256u);
-    for (int s = 248; s < 256; ++s)
+    for (int s = 252; s < 256; ++s)
     {
         EXPECT_EQ(of_lane(groom.root_position, s), of_lane(groom.root_position, 0));
         EXPECT_EQ(of_lane(groom.root_direction, s), of_lane(groom.root_direction, 0));
         EXPECT_EQ(groom.segment_length[size_t(s)], groom.segment_length[0]);
     }
-    for (int g = 0; g < 248; ++g)
+    for (int g = 0; g < 252; ++g)
         EXPECT_EQ(of_lane(groom.root_position, g), whole_scalp().positions[size_t(g)]);
 }
 
@@ -390,6 +390,134 @@ TEST(Groom, a_scalp_of_slivers_and_loose_vertices_grows_finite_hair)
                 ASSERT_LT(std::max({s.guide0, s.guide1, s.guide2}), groom.guides);
             }
         }
+}
+
+HairParams curled()
+{
+    HairParams params;
+    params.strand_length = 0.1f;
+    params.strand_nodes = 50;
+    params.curl_radius = 0.006f;
+    params.curl_pitch = 0.025f;
+    params.curl_variation = 0.0f;
+    params.curl_begin = 0.0f;
+    params.interpolation_strands = 500;
+    return params;
+}
+
+TEST(Form, a_curl_of_eight_nodes_a_turn_is_a_helix_of_its_radius_pitch_and_hand)
+{
+    for (const int hand : {0, 1})
+    {
+        HairParams params = curled();
+        params.curl_hand = hand;
+        ASSERT_TRUE(curls_are_shape(params));
+        EXPECT_EQ(device_params(params).curl_radius, 0.0f) << "nothing is left to lay on";
+        const Groom groom = grow(params, whole_scalp());
+        for (int g = 0; g < groom.guides; ++g)
+        {
+            const glm::dvec3 root = of_lane(groom.root_position, g), axis = of_lane(groom.root_direction, g);
+            glm::dvec3 before(0.0);
+            double turned = 0.0, from = 0.0, to = 0.0;
+            for (int k = 0; k < groom.nodes; ++k)
+            {
+                const glm::dvec3 way = vector_at(groom.natural_position.data(), g, k, groom.nodes) - root;
+                const double along = glm::dot(way, axis);
+                const glm::dvec3 out = way - along * axis;
+                if (along < 0.026)
+                    continue; // a quarter of the strand: it sets in
+                EXPECT_NEAR(glm::length(out), 0.006, 2e-5);
+                if (from > 0.0)
+                    turned += std::atan2(glm::dot(axis, glm::cross(before, out)), glm::dot(before, out));
+                from = from > 0.0 ? from : along;
+                to = along;
+                before = out;
+            }
+            EXPECT_NEAR(to, 0.1, 1e-5);
+            EXPECT_NEAR(turned / (2.0 * std::numbers::pi), (hand == 0 ? 1.0 : -1.0) * (to - from) / 0.025, 1e-3);
+        }
+    }
+    HairParams few = curled();
+    few.strand_nodes = 32;
+    EXPECT_FALSE(curls_are_shape(few));
+    EXPECT_TRUE(grow(few, whole_scalp()).natural_position.empty());
+}
+
+TEST(Form, waves_follow_their_profile)
+{
+    HairParams params = curled();
+    params.wave_along = F4(1.0f, 1.0f, 0.0f, 0.0f);
+    const Groom groom = grow(params, whole_scalp());
+    const glm::dvec3 root = of_lane(groom.root_position, 0), axis = of_lane(groom.root_direction, 0);
+    for (int k = 2; k < groom.nodes; ++k)
+    {
+        const glm::dvec3 way = vector_at(groom.natural_position.data(), 0, k, groom.nodes) - root;
+        const double along = glm::dot(way, axis), size = glm::length(way - along * axis);
+        if (along < 0.026)
+            continue; // a quarter of the strand: the curl sets in
+        EXPECT_NEAR(size, 0.006 * std::clamp(2.0 - along * 30.0, 0.0, 1.0), 3e-5) << along;
+    }
+}
+
+TEST(Form, strands_whose_guides_curl_each_in_its_own_place_follow_one_of_them)
+{
+    HairParams params = curled();
+    for (const float phase : {0.0f, 1.0f})
+    {
+        params.curl_phase = phase;
+        const Groom groom = grow(params, whole_scalp());
+        int mixed = 0;
+        for (int i = 0; i < groom.drawn_multi; ++i)
+            mixed += groom.drawn[size_t(i)].weights.y > 0.0f;
+        EXPECT_EQ(mixed > 0, phase == 0.0f);
+    }
+}
+
+TEST(Form, clumps_have_leaders_as_far_apart_as_they_are_wide_and_none_beyond_a_parting)
+{
+    HairParams params;
+    params.interpolation_strands = 4000;
+    const Groom without = grow(params, whole_scalp());
+    for (size_t i = 0; i < without.drawn.size(); ++i)
+        ASSERT_EQ(without.drawn[i].leader, int(i));
+    params.clump_strength = 0.5f;
+    for (const float size : {0.01f, 0.02f, 0.05f})
+    {
+        params.clump_size = size;
+        const Groom groom = grow(params, whole_scalp());
+        EXPECT_TRUE(same(groom, grow(params, whole_scalp())));
+        const auto direction = [&](const DrawnStrand& s) { return of_lane(groom.root_direction, s.guide0); };
+        std::vector<size_t> leaders;
+        for (size_t i = 0; i < groom.drawn.size(); ++i)
+        {
+            const DrawnStrand &s = groom.drawn[i], &leader = groom.drawn[size_t(s.leader)];
+            ASSERT_EQ(groom.drawn[size_t(s.leader)].leader, s.leader) << "leaders are led by none";
+            EXPECT_LT(glm::distance(vec(s.root), vec(leader.root)), size);
+            EXPECT_GE(glm::dot(direction(s), direction(leader)), kSameWay);
+            EXPECT_NEAR(s.weights.w, glm::dot(vec(s.root) - vec(leader.root), direction(leader)), 1e-6f);
+            if (s.leader == int(i))
+                leaders.push_back(i);
+        }
+        double sum = 0.0;
+        for (const size_t a : leaders)
+        {
+            float least = INFINITY;
+            for (const size_t b : leaders)
+                if (a != b && glm::dot(direction(groom.drawn[a]), direction(groom.drawn[b])) >= kSameWay)
+                    least = std::min(least, glm::distance(vec(groom.drawn[a].root), vec(groom.drawn[b].root)));
+            EXPECT_GE(least, 0.8f * size);
+            sum += least;
+        }
+        EXPECT_NEAR(sum / double(leaders.size()), 0.9 * size, 0.1 * size) << "the nearest of some six neighbours";
+        // All else is as it was without clumps.
+        for (size_t i = 0; i < groom.drawn.size(); ++i)
+        {
+            DrawnStrand s = groom.drawn[i];
+            s.leader = int(i);
+            s.weights.w = 0.0f;
+            ASSERT_EQ(memcmp(&s, &without.drawn[i], sizeof s), 0);
+        }
+    }
 }
 
 } // namespace

@@ -47,7 +47,7 @@ Hairstyle random_style(unsigned seed)
                                                 random() % 2 == 0});
         else
         {
-            double v[3];
+            double v[kMostNumbers];
             const bool bytes = random() % 2 == 0;
             for (double& x : v)
             {
@@ -72,7 +72,7 @@ void expect_same(const Hairstyle& a, const Hairstyle& b)
         EXPECT_TRUE(same_value(a, b, info)) << info.path();
         if (info.on_host())
             continue;
-        float va[3], vb[3];
+        float va[kMostNumbers], vb[kMostNumbers];
         get_numbers(a.params, info, va);
         get_numbers(b.params, info, vb);
         EXPECT_EQ(memcmp(va, vb, size_t(info.components()) * sizeof(float)), 0)

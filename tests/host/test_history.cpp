@@ -35,7 +35,7 @@ void change(Hairstyle& style, std::mt19937& random)
         style.host.colliders.push_back({{float(random() % 10), 0.0f, 0.0f}, 0.1f, random() % 2 == 0});
     if (info.on_host())
         return;
-    double values[3];
+    double values[kMostNumbers];
     for (double& value : values)
     {
         const double share = double(random() % 1000) / 999.0;

@@ -1,5 +1,7 @@
 // Scalps, heads in every format that coif promises, and distances to triangles.
 #include "sim/mesh.h"
+
+#include "app/stress/random_style.h"
 #include "tests/host/scratch.h"
 
 #include <assimp/Exporter.hpp>
@@ -7,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 // assimp's reader of FBX leaks where a file ends too early; that is not coif's to mend.
@@ -29,7 +31,7 @@ using test::TimeLimit;
 TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
 {
     for (const auto& [name, guides] :
-         {std::pair{"scalp.obj", 248u}, {"scalp_top.obj", 230u}, {"scalp_strip.obj", 249u}})
+         {std::pair{"scalp.obj", 252u}, {"scalp_top.obj", 242u}, {"scalp_strip.obj", 234u}})
     {
         const Scalp scalp = load_scalp(shipped(name));
         EXPECT_EQ(scalp.positions.size(), guides) << name;
@@ -59,7 +61,7 @@ TEST(Scalp, each_shipped_one_has_its_guides_in_file_order)
     }
 }
 
-TEST(Scalp, refined_has_a_vertex_more_at_the_middle_of_each_side)
+TEST(Scalp, refined_has_a_vertex_more_for_each_side)
 {
     for (const char* name : {"scalp.obj", "scalp_strip.obj"})
     {
@@ -77,30 +79,75 @@ TEST(Scalp, refined_has_a_vertex_more_at_the_middle_of_each_side)
             EXPECT_EQ(fine.positions[v], coarse.positions[v]);
             EXPECT_EQ(fine.normals[v], coarse.normals[v]);
         }
-        std::set<std::array<float, 3>> middles, found;
-        for (const auto& [a, b] : sides)
-        {
-            const glm::vec3 m = 0.5f * (coarse.positions[a] + coarse.positions[b]);
-            middles.insert({m.x, m.y, m.z});
-        }
+        // As far from one end as from the other, and not far from the middle between them.
+        size_t found = 0;
         for (size_t v = coarse.positions.size(); v < fine.positions.size(); ++v)
+            found += size_t(std::count_if(sides.begin(), sides.end(),
+                                          [&](const auto& side)
+                                          {
+                                              const glm::vec3 a = coarse.positions[side.first],
+                                                              b = coarse.positions[side.second], p = fine.positions[v];
+                                              return glm::distance(p, 0.5f * (a + b)) < 0.1f * glm::distance(a, b) &&
+                                                     std::abs(glm::distance(p, a) - glm::distance(p, b)) <
+                                                         0.05f * glm::distance(a, b);
+                                          }));
+        EXPECT_EQ(found, sides.size());
+        // Seen from the same side.
+        for (const glm::uvec3& t : fine.triangles)
         {
-            found.insert({fine.positions[v].x, fine.positions[v].y, fine.positions[v].z});
-            EXPECT_NEAR(glm::length(fine.normals[v]), 1.0f, 1e-5f);
+            const glm::vec3 a = fine.positions[t.x];
+            const glm::vec3 n = glm::normalize(glm::cross(fine.positions[t.y] - a, fine.positions[t.z] - a));
+            for (int k = 0; k < 3; ++k)
+                EXPECT_GT(glm::dot(n, fine.normals[t[k]]), 0.9f);
         }
-        EXPECT_EQ(found, middles);
-        // The same surface, seen from the same side.
-        const auto area = [](const Scalp& scalp)
-        {
-            glm::dvec3 sum(0.0);
-            for (const glm::uvec3& t : scalp.triangles)
-                sum += glm::cross(glm::dvec3(scalp.positions[t.y] - scalp.positions[t.x]),
-                                  glm::dvec3(scalp.positions[t.z] - scalp.positions[t.x]));
-            return sum;
-        };
-        EXPECT_LT(glm::distance(area(fine), area(coarse)), 1e-5 * glm::length(area(coarse)));
         EXPECT_EQ(refined(coarse, 2).positions, refined(fine, 1).positions);
+        EXPECT_EQ(refined(coarse, 2).normals, refined(fine, 1).normals);
     }
+}
+
+// Else what grows from a refined scalp starts inside the head.
+TEST(Scalp, refined_stays_on_the_sphere_that_it_is_a_part_of)
+{
+    const auto deepest = [](const Scalp& scalp)
+    {
+        float most = 0.0f;
+        for (const glm::vec3& p : scalp.positions)
+            most = std::max(most, std::abs(glm::distance(p, scalp.center) - scalp.radius));
+        return most / scalp.radius;
+    };
+    const Scratch scratch;
+    // An octahedron's sides span a right angle: 3/8 t^4 is not small there, but the chords' middles are at 0.29.
+    const fs::path eight = scratch.write("eight.obj", "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                                                      "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                                                      "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    EXPECT_LT(deepest(refined(load_scalp(eight), 1)), 0.12f);
+    EXPECT_LT(deepest(refined(load_scalp(eight), 3)), 0.16f);
+    // Sides of up to 0.83; their chords are at 0.085.
+    const fs::path half = scratch.write("half.obj", stress::small_scalp());
+    EXPECT_LT(deepest(refined(load_scalp(half), 1)), 0.015f);
+    EXPECT_LT(deepest(refined(load_scalp(half), 3)), 0.015f);
+    for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
+    {
+        const Scalp scalp = load_scalp(shipped(name));
+        EXPECT_LT(deepest(refined(scalp, 2)), deepest(scalp) + 5e-4f) << name;
+    }
+}
+
+TEST(Scalp, refined_keeps_what_is_flat_flat_and_what_is_straight_straight)
+{
+    const Scratch scratch;
+    const fs::path file = scratch.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 4 3\n");
+    const Scalp fine = refined(load_scalp(file), 2);
+    for (size_t v = 5; v < fine.positions.size(); ++v)
+    {
+        EXPECT_EQ(fine.positions[v].y, 0.0f);
+        for (const int axis : {0, 2})
+            EXPECT_EQ(std::fmod(fine.positions[v][axis], 0.25f), 0.0f);
+    }
+    // However sharp a fold, no middle is further from its chord than a quarter of that.
+    const fs::path sharp = scratch.write("sharp.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0.01 0\nf 1 2 3\nf 1 3 4\n");
+    for (const glm::vec3& p : refined(load_scalp(sharp), 2).positions)
+        EXPECT_LT(std::abs(p.y), 0.2f);
 }
 
 TEST(Scalp, is_refined_until_it_carries_as_many_guides_as_coif_takes)
@@ -112,18 +159,47 @@ TEST(Scalp, is_refined_until_it_carries_as_many_guides_as_coif_takes)
     EXPECT_NE(error_of([&] { refined(scalp, most + 1); }).find("interpolation.refine"), std::string::npos);
 }
 
-TEST(Scalp, each_shipped_one_lies_on_the_cranium_and_looks_outwards)
+double distance_to(const Mesh& mesh, glm::vec3 p)
+{
+    double nearest = INFINITY;
+    for (const glm::uvec3& t : mesh.triangles)
+        nearest = std::min(nearest,
+                           double(triangle_distance(p, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])));
+    return nearest;
+}
+
+TEST(Scalp, each_shipped_one_lies_on_the_shipped_head_and_looks_outwards)
+{
+    const Mesh head = load_mesh(shipped("head.obj"));
+    for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
+    {
+        const Scalp scalp = load_scalp(shipped(name));
+        EXPECT_LT(glm::length(scalp.center), 0.03f) << name;
+        EXPECT_NEAR(scalp.radius, 0.09f, 0.015f) << name;
+        for (size_t i = 0; i < scalp.positions.size(); ++i)
+        {
+            EXPECT_LT(distance_to(head, scalp.positions[i]), 0.0002) << name << " " << i;
+            EXPECT_NEAR(glm::length(scalp.normals[i]), 1.0f, 1e-5f);
+            EXPECT_GT(glm::dot(scalp.normals[i], glm::normalize(scalp.positions[i])), 0.6f) << name << " " << i;
+        }
+    }
+}
+
+TEST(Scalp, the_shipped_ones_cover_the_head_evenly)
 {
     for (const char* name : {"scalp.obj", "scalp_top.obj", "scalp_strip.obj"})
     {
         const Scalp scalp = load_scalp(shipped(name));
-        EXPECT_NEAR(glm::length(scalp.center), 0.0f, 1e-4f) << name;
-        EXPECT_NEAR(scalp.radius, 0.1f, 1e-4f) << name;
-        for (size_t i = 0; i < scalp.positions.size(); ++i)
+        std::vector<double> areas;
+        for (const glm::uvec3& t : scalp.triangles)
         {
-            EXPECT_NEAR(glm::length(scalp.normals[i]), 1.0f, 1e-5f);
-            EXPECT_GT(glm::dot(scalp.normals[i], glm::normalize(scalp.positions[i])), 0.8f) << name << " " << i;
+            const glm::vec3 a = scalp.positions[t.x], u = scalp.positions[t.y] - a, v = scalp.positions[t.z] - a;
+            areas.push_back(0.5 * double(glm::length(glm::cross(u, v))));
         }
+        std::ranges::sort(areas);
+        const double middle = areas[areas.size() / 2];
+        EXPECT_GT(areas[areas.size() / 20], 0.4 * middle) << name;
+        EXPECT_LT(areas[areas.size() - 1 - areas.size() / 20], 2.0 * middle) << name;
     }
 }
 
@@ -340,6 +416,30 @@ TEST(Mesh, the_shipped_head_loads_with_unit_normals)
     for (const glm::uvec3& t : head.triangles)
         for (int k = 0; k < 3; ++k)
             ASSERT_LT(t[k], head.positions.size());
+}
+
+TEST(Mesh, the_shipped_head_is_closed_and_light)
+{
+    const Mesh head = load_mesh(shipped("head.obj"));
+    EXPECT_LE(head.triangles.size(), 40000u);
+    EXPECT_LT(fs::file_size(shipped("head.obj")), 2'500'000u);
+    std::set<std::pair<unsigned, unsigned>> edges;
+    for (const glm::uvec3& t : head.triangles)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_TRUE(edges.insert({t[k], t[(k + 1) % 3]}).second);
+    for (const auto& [a, b] : edges)
+        EXPECT_TRUE(edges.contains({b, a}));
+    EXPECT_EQ(head.positions.size() + head.triangles.size() - edges.size() / 2, 2u) << "a ball, without handles";
+}
+
+TEST(Mesh, the_shipped_head_scalps_and_spheres_are_what_their_generator_makes)
+{
+    const Scratch scratch;
+    const std::string command = fmt::format("'{}/generate' '{}'", COIF_BUILD_FOLDER, scratch.folder().string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    for (const char* name : {"head.obj", "scalp.obj", "scalp_top.obj", "scalp_strip.obj", "head_spheres.toml"})
+        EXPECT_TRUE(bytes_of(scratch / name) == bytes_of(shipped(name)))
+            << name << " is not what assets/generate makes; see assets/README.md";
 }
 
 TEST(Mesh, quads_are_cut_and_lines_and_points_left_out)

@@ -81,7 +81,8 @@ Vec value(const std::vector<float>& from, int strand, int node, int nodes)
 
 // Bending energy over the stiffness: half the weighted squares of second differences off their targets, which lie in a
 // frame carried along the strand by the smallest rotations (Rodrigues).
-double energy(const std::vector<Vec>& x, Vec direction, Vec normal, const std::vector<Vec>& bend, double attenuation)
+double energy(const std::vector<Vec>& x, Vec direction, Vec normal, const std::vector<Vec>& bend,
+              const HairParams& params)
 {
     double sum = 0.0;
     Vec t = direction;
@@ -90,7 +91,10 @@ double energy(const std::vector<Vec>& x, Vec direction, Vec normal, const std::v
     {
         const Vec target = bend[e].x * t + bend[e].y * normal + bend[e].z * glm::cross(t, normal);
         const Vec off = x[e - 1] - 2.0 * x[e] + x[e + 1] - target;
-        sum += 0.5 * (e == 1 ? 2.0 : 1.0) * std::exp(-attenuation * double(e - 1) / double(links)) * glm::dot(off, off);
+        const double along = double(e - 1) / double(links);
+        const double weight = (e == 1 ? 2.0 : 1.0) * std::exp(-params.bending_attenuation * along) *
+                              profile_at(params.bending_along, along);
+        sum += 0.5 * weight * glm::dot(off, off);
         const Vec next = glm::normalize(x[e + 1] - x[e]), axis = glm::cross(t, next);
         const double sine = glm::length(axis), cosine = glm::dot(t, next);
         if (sine > 1e-14)
@@ -136,9 +140,9 @@ double unbalanced(const HairParams& params, const Groom& groom)
             {
                 std::vector<Vec> at = x;
                 at[i][axis] += step;
-                const double above = energy(at, direction, normal, bend, params.bending_attenuation);
+                const double above = energy(at, direction, normal, bend, params);
                 at[i][axis] -= 2.0 * step;
-                const double below = energy(at, direction, normal, bend, params.bending_attenuation);
+                const double below = energy(at, direction, normal, bend, params);
                 force[axis] -= stiffness * (above - below) / (2.0 * step);
             }
             // Positions and bends are floats: so much of a tenth of a metre, and of a segment, times what multiplies
@@ -161,6 +165,8 @@ TEST(RestShape, bending_and_tension_hold_up_what_gravity_pulls_down)
                     HairParams params;
                     params.bending_droop = droop;
                     params.bending_attenuation = attenuation;
+                    if (attenuation > 0.0f)
+                        params.bending_along = F4(2.0f, 0.8f, 1.0f, 0.5f);
                     params.forces_gravity = gravity;
                     EXPECT_LE(unbalanced(params, groom), 0.02)
                         << groom.nodes << " nodes, droop " << droop << ", gravity " << gravity << ", " << attenuation;

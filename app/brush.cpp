@@ -1,0 +1,310 @@
+#include "app/brush.h"
+
+#include "sim/shaping.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+
+const char* brush_name(BrushKind kind)
+{
+    static const char* const names[kBrushKinds] = {"comb",    "length", "lift",   "wave",
+                                                   "density", "color",  "smooth", "erase"};
+    return names[int(kind)];
+}
+
+const char* brush_help(BrushKind kind)
+{
+    static const char* const help[kBrushKinds] = {
+        "Turns roots and bends strands the way the brush goes.",
+        "Grows or cuts strands to this length.",
+        "Lifts roots off the scalp, or lays them down, to this angle.",
+        "Lays waves of this height on straight or wavy hair.",
+        "Thins hair out to this share, or lets it grow back.",
+        "Dyes roots, tips or both.",
+        "Evens out what brushes have painted.",
+        "Takes away what brushes have painted.",
+    };
+    return help[int(kind)];
+}
+
+float brush_weight(const Brush& brush, glm::vec3 at, glm::vec3 root)
+{
+    const float share = glm::distance(at, root) / std::max(brush.radius, 1e-6f);
+    const float inner = 1.0f - brush.falloff;
+    return share >= 1.0f ? 0.0f : brush.strength * (1.0f - glm::smoothstep(std::min(inner, 0.999f), 1.0f, share));
+}
+
+// The map of a parameter that brushes paint: the style's, or a fresh one that changes nothing.
+static ScalpMap& painted_map(Hairstyle& style, const char* of, const Scalp& scalp)
+{
+    const ParamInfo& info = *find_param(of);
+    const bool color = info.kind == Kind::COLOR;
+    const int how = color ? MAP_OVER : MAP_OFFSET;
+    for (ScalpMap& map : style.host.maps)
+        if (map.of == of && map.how == how)
+            return map;
+    return style.host.maps.emplace_back(
+        ScalpMap{of, how, std::vector<float>(scalp.positions.size() * (color ? 4 : 1), 0.0f), {}});
+}
+
+static bool painted(const ScalpMap& map)
+{
+    return std::ranges::any_of(map.values, [&](float v) { return v != (map.how == MAP_FACTOR ? 1.0f : 0.0f); });
+}
+
+// Moves a number, as it is at each vertex, towards `aim`.
+static bool paint_number(Hairstyle& style, const char* of, const Scalp& scalp, const std::vector<float>& weights,
+                         float aim)
+{
+    ScalpMap& map = painted_map(style, of, scalp);
+    const ParamInfo& info = *find_param(of);
+    const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
+    const ScalpMap before = map;
+    for (size_t v = 0; v < weights.size(); ++v)
+    {
+        if (weights[v] <= 0.0f)
+            continue;
+        float now[4];
+        get_numbers(params_at(shaping, at_vertex(scalp, v)), info, now);
+        // Whole within what can be seen, so that a stroke comes to an end.
+        const float span = info.max - info.min, by = weights[v] * (std::clamp(aim, info.min, info.max) - now[0]);
+        if (std::abs(by) > 1e-6f * span)
+            map.values[v] = std::clamp(map.values[v] + by, -1000.0f, 1000.0f);
+    }
+    return map != before;
+}
+
+static bool paint_color(Hairstyle& style, const char* of, const Scalp& scalp, const std::vector<float>& weights,
+                        glm::vec3 color)
+{
+    ScalpMap& map = painted_map(style, of, scalp);
+    const ScalpMap before = map;
+    for (size_t v = 0; v < weights.size(); ++v)
+    {
+        const float w = weights[v];
+        if (w <= 0.0f)
+            continue;
+        float* over = &map.values[4 * v];
+        // One layer over another: what covers is the sum of what each lets show.
+        const float cover = w + over[3] * (1.0f - w);
+        for (int i = 0; i < 3; ++i)
+            over[i] = (w * color[i] + over[3] * (1.0f - w) * over[i]) / cover;
+        over[3] = cover;
+    }
+    return map != before;
+}
+
+static std::vector<std::vector<unsigned>> neighbors_of(const Scalp& scalp)
+{
+    std::vector<std::vector<unsigned>> near(scalp.positions.size());
+    for (const glm::uvec3& t : scalp.triangles)
+        for (int k = 0; k < 3; ++k)
+            for (const unsigned other : {t[(k + 1) % 3], t[(k + 2) % 3]})
+                if (std::ranges::find(near[t[k]], other) == near[t[k]].end())
+                    near[t[k]].push_back(other);
+    return near;
+}
+
+static bool smooth(Hairstyle& style, const Scalp& scalp, const std::vector<float>& weights)
+{
+    const auto near = neighbors_of(scalp);
+    bool changed = false;
+    for (ScalpMap& map : style.host.maps)
+    {
+        const size_t each = map.values.size() / std::max<size_t>(1, scalp.positions.size());
+        const std::vector<float> before = map.values;
+        for (size_t v = 0; v < weights.size() && each > 0; ++v)
+            for (size_t i = 0; i < each && weights[v] > 0.0f && !near[v].empty(); ++i)
+            {
+                float mean = 0.0f;
+                for (const unsigned n : near[v])
+                    mean += before[n * each + i] / float(near[v].size());
+                map.values[v * each + i] += weights[v] * (mean - before[v * each + i]);
+            }
+        changed |= map.values != before;
+    }
+    return changed;
+}
+
+static bool erase(Hairstyle& style, const std::vector<float>& weights)
+{
+    bool changed = false;
+    for (ScalpMap& map : style.host.maps)
+    {
+        const float none = map.how == MAP_FACTOR ? 1.0f : 0.0f;
+        const size_t each = map.values.size() / std::max<size_t>(1, weights.size());
+        for (size_t v = 0; v < weights.size() && each > 0; ++v)
+            for (size_t i = each == 4 ? 3 : 0; i < each; ++i)
+            {
+                float& value = map.values[v * each + i];
+                const float before = value;
+                value += weights[v] * (none - value);
+                value = std::abs(value - none) < 1e-4f ? none : value;
+                changed |= value != before;
+            }
+    }
+    std::erase_if(style.host.maps, [](const ScalpMap& map) { return !painted(map); });
+    return changed;
+}
+
+// Turns each strand about its root's normal so that it goes where the brush goes, its outer nodes less than its root.
+static bool comb(Hairstyle& style, const Scalp& scalp, const StrandShapes& rest, const std::vector<float>& weights,
+                 glm::vec3 along)
+{
+    const float way = glm::length(along);
+    if (!(way > 1e-5f))
+        return false;
+    const bool stored = style.host.groom_rest.shapes &&
+                        size_t(style.host.groom_rest.shapes->strands()) == scalp.positions.size();
+    StrandShapes shapes = stored ? *style.host.groom_rest.shapes : rest;
+    if (size_t(shapes.strands()) != scalp.positions.size())
+        return false;
+    const size_t nodes = size_t(shapes.nodes);
+    bool changed = false;
+    for (size_t v = 0; v < weights.size(); ++v)
+    {
+        if (weights[v] <= 0.0f)
+            continue;
+        const glm::vec3 n = scalp.normals[v];
+        glm::vec3* p = &shapes.position[v * nodes];
+        const glm::vec3 aim = along - n * glm::dot(along, n);
+        if (!(glm::length(aim) > 0.1f * way))
+            continue;
+        // A stroke as long as the brush is wide turns a strand all the way.
+        const float share = std::min(1.0f, weights[v] * way / 0.02f);
+        std::vector<glm::vec3> segments;
+        for (size_t k = 1; k < nodes; ++k)
+            segments.push_back(p[k] - p[k - 1]);
+        for (size_t k = 0; k < segments.size(); ++k)
+        {
+            const glm::vec3 flat = segments[k] - n * glm::dot(segments[k], n);
+            const float size = glm::length(segments[k]), level = glm::length(flat);
+            if (!(size > 1e-9f))
+                continue;
+            // Upright ones are laid over; the others turn in the plane of the scalp.
+            const glm::vec3 from = level > 0.05f * size ? flat / level : glm::normalize(aim) * 0.2f;
+            const float fade = 1.0f - 0.6f * float(k) / float(segments.size());
+            const glm::vec3 to = glm::mix(from, glm::normalize(aim), share * fade);
+            const float turned = glm::length(to);
+            const float out = glm::dot(segments[k], n) / size;
+            const float beside = std::max(std::sqrt(std::max(0.0f, 1.0f - out * out)), 0.3f * share * fade);
+            if (turned > 1e-6f)
+                segments[k] = size * glm::normalize(n * out + to / turned * beside);
+        }
+        p[0] = p[1] - segments[0];
+        for (size_t k = 2; k < nodes; ++k)
+            p[k] = p[k - 1] + segments[k - 1];
+        changed = true;
+    }
+    if (changed)
+        style.host.groom_rest = {style.host.groom_rest.file, std::make_shared<const StrandShapes>(std::move(shapes))};
+    return changed;
+}
+
+bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shapes, const Brush& brush,
+                 const Touch& touch)
+{
+    bool changed = false;
+    for (const float side : {1.0f, -1.0f})
+    {
+        if (side < 0.0f && !brush.mirror)
+            break;
+        const glm::vec3 mirrored(side, 1.0f, 1.0f);
+        std::vector<float> weights;
+        for (const glm::vec3& root : scalp.positions)
+            weights.push_back(brush_weight(brush, touch.at * mirrored, root));
+        if (std::ranges::all_of(weights, [](float w) { return w <= 0.0f; }))
+            continue;
+        switch (brush.kind)
+        {
+        case BrushKind::COMB:
+            changed |= comb(style, scalp, shapes, weights, touch.along * mirrored);
+            break;
+        case BrushKind::LENGTH:
+            changed |= paint_number(style, "strand.length", scalp, weights, brush.length);
+            break;
+        case BrushKind::LIFT:
+            changed |= paint_number(style, "root.lift", scalp, weights, brush.lift);
+            break;
+        case BrushKind::WAVE:
+            changed |= paint_number(style, "wave.normal_amplitude", scalp, weights, brush.wave);
+            changed |= paint_number(style, "wave.binormal_amplitude", scalp, weights, brush.wave);
+            break;
+        case BrushKind::DENSITY:
+            changed |= paint_number(style, "interpolation.density", scalp, weights, brush.density);
+            break;
+        case BrushKind::COLOR:
+            if (brush.color_of != 1)
+                changed |= paint_color(style, "look.root_color", scalp, weights, brush.color);
+            if (brush.color_of != 0)
+                changed |= paint_color(style, "look.tip_color", scalp, weights, brush.color);
+            break;
+        case BrushKind::SMOOTH:
+            changed |= smooth(style, scalp, weights);
+            break;
+        case BrushKind::ERASE:
+            changed |= erase(style, weights);
+            break;
+        }
+    }
+    return changed;
+}
+
+bool cut_at_plane(Hairstyle& style, const Scalp& scalp, const StrandShapes& shapes, glm::vec3 n, float d)
+{
+    if (size_t(shapes.strands()) != scalp.positions.size())
+        return false;
+    const size_t nodes = size_t(shapes.nodes);
+    std::vector<std::pair<size_t, float>> cuts; // vertex, m
+    for (size_t v = 0; v < scalp.positions.size(); ++v)
+    {
+        const glm::vec3* p = &shapes.position[v * nodes];
+        float length = 0.0f;
+        for (size_t k = 2; k < nodes; ++k)
+        {
+            const float before = glm::dot(n, p[k - 1]) - d, after = glm::dot(n, p[k]) - d;
+            const float segment = glm::distance(p[k], p[k - 1]);
+            if (after > 0.0f)
+            {
+                cuts.emplace_back(v, length + segment * std::clamp(before / (before - after), 0.0f, 1.0f));
+                break;
+            }
+            length += segment;
+        }
+    }
+    if (cuts.empty())
+        return false;
+    std::vector<float> one(scalp.positions.size(), 0.0f);
+    bool changed = false;
+    for (const auto& [v, length] : cuts)
+    {
+        one[v] = 1.0f;
+        changed |= paint_number(style, "strand.length", scalp, one, length);
+        one[v] = 0.0f;
+    }
+    return changed;
+}
+
+void pick_value(Brush& brush, const Hairstyle& style, const Scalp& scalp, glm::vec3 at)
+{
+    size_t nearest = 0;
+    for (size_t v = 1; v < scalp.positions.size(); ++v)
+        if (glm::distance(scalp.positions[v], at) < glm::distance(scalp.positions[nearest], at))
+            nearest = v;
+    const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
+    const HairParams p = params_at(shaping, at_vertex(scalp, nearest));
+    brush.length = p.strand_length;
+    brush.lift = p.root_lift;
+    brush.wave = p.wave_normal_amplitude;
+    brush.density = p.interpolation_density;
+    const float4& color = brush.color_of == 1 ? p.look_tip_color : p.look_root_color;
+    brush.color = {color.x, color.y, color.z};
+}
+
+} // namespace coif

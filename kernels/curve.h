@@ -1,0 +1,13 @@
+// Gives strand_curve.h the names that it expects, as shaders/curve.glsl does for GLSL.
+#ifndef COIF_CURVE_H
+#define COIF_CURVE_H
+
+#define CURVE_FUNCTION static inline
+#define FLOAT4(x, y, z, w) ((float4)(x, y, z, w))
+#define UINT uint
+#define TO_INT(v) ((int)(v))
+#define TO_UINT(v) ((uint)(v))
+#define TO_FLOAT(v) ((float)(v))
+#include "strand_curve.h"
+
+#endif
