@@ -56,7 +56,8 @@ template <typename Distance> static std::optional<double> traced(const Ray& ray,
     return std::nullopt;
 }
 
-static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, const Pose& head)
+// Where the ray first comes this near to the head's grid, m.
+static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, const Pose& head, double near = 0.0)
 {
     if (!body.grid)
         return std::nullopt;
@@ -70,7 +71,7 @@ static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, co
                       const glm::dvec3 p = glm::conjugate(head.turn) * (world - head.origin);
                       // Outside of the grid its distances are too long to go by.
                       const double outside = glm::distance(p, glm::clamp(p, low, high));
-                      return outside > 0.0 ? outside + 0.5 * voxel : double(distance_to(body, glm::vec3(p)));
+                      return outside > 0.0 ? outside + 0.5 * voxel : double(distance_to(body, glm::vec3(p))) - near;
                   });
 }
 
@@ -219,16 +220,20 @@ Tie dragged_tie(const Grab& held, const Simulation& simulation, const Camera& ca
     const TieGround ground = tie_ground(simulation.style(), simulation.assets(), body);
     Ray ray = ray_through(camera, x, y, width, height);
     ray.direction = glm::normalize(ray.direction + held.aside);
-    // Where one looks at the head; beside it, what of it is nearest.
-    std::optional<double> at = hit_body(ray, body, head);
-    const std::vector<Capsule> placed = simulation.solver().placed_colliders(); // the head's own come first
-    for (size_t i = 0; i < ground.spheres.size(); ++i)
-        if (const std::optional<double> on = hit_collider(ray, placed[i], head.origin); on && (!at || *on < *at))
-            at = on;
-    const glm::dvec3 seen = at ? ray.origin + ray.direction * *at : on_facing_plane(ray, camera, held.start);
     Tie tie = held.tie_before;
     const float scale = simulation.params().head_scale;
     const float high = std::max(height_above(ground, tie.at * scale), tie.thickness);
+    // Where one looks at that height over the head; beside it, what of it is nearest.
+    std::optional<double> at = hit_body(ray, body, head, double(high));
+    const std::vector<Capsule> placed = simulation.solver().placed_colliders(); // the head's own come first
+    for (size_t i = 0; i < ground.spheres.size(); ++i)
+    {
+        Capsule around = placed[i];
+        around.center.w += high;
+        if (const std::optional<double> on = hit_collider(ray, around, head.origin); on && (!at || *on < *at))
+            at = on;
+    }
+    const glm::dvec3 seen = at ? ray.origin + ray.direction * *at : on_facing_plane(ray, camera, held.start);
     const RingPlace before = ring_place(ground, tie.at * scale, high);
     const RingPlace now = ring_place(ground, glm::vec3(glm::conjugate(head.turn) * (seen - head.origin)), high);
     tie.at = glm::clamp(now.at / scale, -100.0f, 100.0f);

@@ -1,4 +1,5 @@
 // Tied hair that lives: it stays in its ring, swings behind it, and is drawn through it.
+#include "app/viewport.h"
 #include "sim/health.h"
 #include "sim/simulation.h"
 #include "tests/on_device.h"
@@ -7,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -209,6 +211,40 @@ TEST(TiedHair, FollowsARingThatIsMoved)
         simulation.step(simulation.hand());
     EXPECT_TRUE(measure_health(simulation.solver(), simulation.params(), false).finite);
     EXPECT_TRUE(simulation.solver().groom().held.empty());
+}
+
+TEST(TiedHair, ItsRingIsTakenAndDraggedOverTheHead)
+{
+    const Simulation simulation(test_device(), tied_style());
+    const Tie tie = simulation.style().host.ties[0];
+    const TieGround ground = tie_ground(simulation.style(), simulation.assets(), simulation.solver().body());
+    Camera camera;
+    camera.yaw = 2.8; // from behind
+    Grab held;
+    double x = 0.0, y = 0.0;
+    for (int i = 0; i < 160 * 160 && held.what != Grab::TIE; ++i)
+    {
+        x = 4.0 * (i % 160);
+        y = 4.0 * (i / 160);
+        held = grab(simulation, camera, x, y, 640, 640, false);
+    }
+    ASSERT_EQ(held.what, Grab::TIE);
+    EXPECT_EQ(held.tie, 0u);
+    const float high = height_above(ground, tie.at);
+    EXPECT_LE(glm::distance(dragged_tie(held, simulation, camera, x, y, 640, 640).at, tie.at), 1e-3f)
+        << "it jumps when it is taken";
+    for (const glm::dvec2 by : {glm::dvec2(40.0, 60.0), glm::dvec2(-50.0, 20.0), glm::dvec2(0.0, -300.0)})
+    {
+        const Tie dragged = dragged_tie(held, simulation, camera, x + by.x, y + by.y, 640, 640);
+        EXPECT_GT(glm::distance(dragged.at, tie.at), 0.02f);
+        EXPECT_NEAR(height_above(ground, dragged.at), high, 1e-3f);
+        EXPECT_NEAR(glm::length(dragged.axis), glm::length(tie.axis), 1e-4f);
+        Groom groom = grow(simulation.params(), simulation.assets().scalp);
+        HostParams host;
+        host.ties = {dragged};
+        const TieRoots roots = tie_roots(groom, simulation.params(), host, simulation.assets().scalp);
+        EXPECT_NO_THROW(tie_hair(groom, simulation.params(), simulation.assets().scalp, host.ties, roots, ground));
+    }
 }
 
 TEST(TiedHair, ARingInsideTheHeadIsToldAndTheOldStateStays)
