@@ -366,7 +366,7 @@ TEST_P(DirectPass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
         {"position, infinite", FAULT_POSITION, [&](size_t i) { state.position[i].x = INFINITY; }},
         {"velocity", FAULT_VELOCITY, [&](size_t i) { state.velocity[i + size_t(c.nodes) - 1].z = -INFINITY; }},
         {"multiplier", FAULT_VELOCITY, [&](size_t i) { state.multiplier[i + 2] = NAN; }},
-        {"forces", FAULT_FORCES, [&](size_t i) { state.rest_bend[i + 1].y = NAN; }},
+        {"forces", FAULT_FORCES, [&](size_t i) { state.rest_bend[i + size_t(held_nodes(groom, bad)) - 1].y = NAN; }},
     };
     for (const auto& ill : ills)
     {

@@ -107,7 +107,7 @@ TEST(TiedHair, IsHeldByTheSweepsToo)
     EXPECT_LE(held_apart(simulation, before), 2e-6);
     const Health health = measure_health(simulation.solver(), simulation.params(), false);
     EXPECT_TRUE(health.finite);
-    EXPECT_LE(health.stretch_max, 0.01);
+    EXPECT_LE(health.stretch_max, 0.02); // what bodies leave of the last walk
 }
 
 // How far every drawn strand passes the middle of the ring, m.
