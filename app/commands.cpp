@@ -27,7 +27,13 @@ static int run_check(const std::vector<std::string>& styles)
             if (name.empty())
                 throw Error("check: a style without a name");
             Hairstyle style = load_hairstyle(find_style(name));
-            const std::string doubt = doubtful_size(style.params, load_assets(style));
+            Assets assets = load_assets(style);
+            std::string doubt = doubtful_size(style.params, assets);
+            if (!style.host.ties.empty())
+            {
+                const std::string loose = doubtful_ties(style, grown(style, assets));
+                doubt += (doubt.empty() || loose.empty() ? "" : "; ") + loose;
+            }
             fmt::print("{}: good{}\n", name, doubt.empty() ? "" : ", but " + doubt);
         }
         catch (const Error& e)

@@ -159,6 +159,12 @@ void Editor::handle_mouse(const SDL_Event& event)
             collider.center = center;
             apply();
         }
+        else if (held_.what == Grab::TIE)
+        {
+            style_.host.ties.at(held_.tie) =
+                dragged_tie(held_, *simulation_, camera_, x, y, picture_width(), view_height_);
+            apply();
+        }
         else if (held_.what == Grab::MOVE_HEAD || held_.what == Grab::TURN_HEAD)
             hand_ = dragged_head(held_, camera_, x, y, picture_width(), view_height_);
     }

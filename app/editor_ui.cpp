@@ -15,6 +15,7 @@ namespace coif
 static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-drag the head    turn it\n"
                             "drag a collider       move it\n"
+                            "drag a ring           move it over the head\n"
                             "drag elsewhere        orbit (right button: anywhere)\n"
                             "middle drag           pan\n"
                             "wheel                 zoom\n"

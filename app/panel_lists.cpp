@@ -15,6 +15,7 @@ namespace
 // A widget for each field; `changed` says whether any was used.
 struct FieldEditor
 {
+    const HostParams& host;
     bool changed = false;
 
     void text(const char* name, std::string& value, bool needed = false)
@@ -26,12 +27,19 @@ struct FieldEditor
             value = edited;
         }
     }
-    // Of the named parts of a head, any.
+    // Of the named parts of a head, or of the style's regions, any.
     void texts(const char* name, std::vector<std::string>& values)
     {
         if (!ImGui::BeginCombo(name, values.empty() ? "anywhere" : fmt::format("{}", fmt::join(values, ", ")).c_str()))
             return;
-        for (const std::string& area : region_areas())
+        std::vector<std::string> names = region_areas();
+        if (name == std::string_view("regions"))
+        {
+            names.clear();
+            for (const Region& region : host.regions)
+                names.push_back(region.name);
+        }
+        for (const std::string& area : names)
         {
             const auto found = std::find(values.begin(), values.end(), area);
             if (!ImGui::Selectable(area.c_str(), found != values.end(), ImGuiSelectableFlags_DontClosePopups))
@@ -117,6 +125,7 @@ struct FieldEditor
             changed = true;
         }
     }
+    void color(const char* name, glm::vec3& value) { changed |= ImGui::ColorEdit3(name, &value.x); }
     void flag(const char* name, bool& value) { changed |= ImGui::Checkbox(name, &value); }
     template <typename Choice> void choice(const char* name, Choice& value, const char* labels)
     {
@@ -214,12 +223,26 @@ static bool add_entry(std::vector<Parting>& list, size_t most)
 
 static bool add_entry(std::vector<ScalpMap>&, size_t) { return false; }
 
+static bool add_entry(std::vector<Tie>& list, size_t most)
+{
+    if (list.size() >= most || !ImGui::Button("add a tie"))
+        return false;
+    Tie tie;
+    tie.name = fmt::format("tie {}", list.size() + 1);
+    list.push_back(tie);
+    return true;
+}
+
 static std::string title_of(const Collider& c, size_t i)
 {
     return fmt::format("{} {}", c.to ? "capsule" : "sphere", i + 1);
 }
 static std::string title_of(const Region& region, size_t) { return region.name; }
 static std::string title_of(const Parting&, size_t i) { return fmt::format("parting {}", i + 1); }
+static std::string title_of(const Tie& tie, size_t i)
+{
+    return tie.name.empty() ? fmt::format("tie {}", i + 1) : tie.name;
+}
 static std::string title_of(const ScalpMap& map, size_t) { return "map of " + map.of; }
 
 // Is the entry as its neighbours allow it?
@@ -244,7 +267,7 @@ bool draw_list(HostParams& host, const ParamInfo& info)
                              ImGui::SameLine();
                              const bool remove = ImGui::SmallButton("remove");
                              const auto before = list[i];
-                             FieldEditor editor;
+                             FieldEditor editor{host};
                              ImGui::PushItemWidth(ImGui::GetWindowWidth() * 0.5f);
                              fields(editor, list[i]);
                              ImGui::PopItemWidth();

@@ -104,11 +104,11 @@ static void attribute(GLuint index, GLint size, GLsizei stride, size_t offset)
 Renderer::Renderer(const std::filesystem::path& shader_folder)
     : shader_folder_(shader_folder), programs_(std::make_unique<Programs>(shader_folder))
 {
-    for (GLuint* buffer :
-         {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_, &index_buffer_,
-          &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_, &guide_buffer_})
+    for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_,
+                           &index_buffer_, &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_,
+                           &guide_buffer_, &ring_buffer_, &ring_indices_, &braid_buffer_})
         *buffer = make_buffer();
-    for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &guide_array_, &empty_array_})
+    for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &guide_array_, &empty_array_})
         *array = make_array();
 
     const std::pair<GLuint, size_t> blocks[] = {{frame_block_, sizeof(FrameBlock)},
@@ -163,6 +163,13 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(unsigned)), faces.data(), GL_STATIC_DRAW);
     sphere_index_count_ = GLsizei(faces.size());
 
+    glBindVertexArray(ring_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, ring_buffer_);
+    attribute(0, 3, 7 * sizeof(float), 0);
+    attribute(1, 3, 7 * sizeof(float), 3 * sizeof(float));
+    attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
+    make_rings();
+
     glGenTextures(1, &depth_texture_);
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -209,11 +216,13 @@ Renderer::~Renderer()
         glDeleteTextures(1, &target->texture);
     }
     for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
-                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_})
+                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_,
+                          ring_buffer_, ring_indices_, braid_buffer_})
         glDeleteBuffers(1, &buffer);
-    for (GLuint array : {strand_array_, mesh_array_, sphere_array_, guide_array_, empty_array_})
+    for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_})
+    for (GLuint texture :
+         {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_, braid_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -292,6 +301,7 @@ void Renderer::draw_solids(const FrameInput& frame)
         glUniform3f(program.uniform("stretch"), axis.x, axis.y, axis.z);
         glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
     }
+    draw_rings(frame, program);
 }
 
 void Renderer::draw_strands(const FrameInput& frame)
@@ -311,7 +321,11 @@ void Renderer::draw_strands(const FrameInput& frame)
     glActiveTexture(GL_TEXTURE3);
     glBindTexture(GL_TEXTURE_BUFFER, leader_texture_);
     glUniform1i(program.uniform("leaders"), 3);
+    glActiveTexture(GL_TEXTURE4);
+    glBindTexture(GL_TEXTURE_BUFFER, braid_texture_);
+    glUniform1i(program.uniform("braids"), 4);
     glActiveTexture(GL_TEXTURE0);
+    glUniform1i(program.uniform("braided"), braided_);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -75,11 +75,14 @@ class Renderer
 
     void upload(const FrameInput& frame);
     void upload_mesh(const FrameInput& frame);
+    void upload_braids(const FrameInput& frame);
+    void make_rings();
     void upload_looks(const std::vector<StrandLook>& looks);
     void upload_colors(const FrameInput& frame);
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
     void draw_solids(const FrameInput& frame);
+    void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     void draw_strands(const FrameInput& frame);
     void draw_guides(const FrameInput& frame);
     // All samples of a part, averaged. Returns the texture that holds them.
@@ -94,11 +97,13 @@ class Renderer
     GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
+    GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
+    GLint braided_ = 0; // strands that may be
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
     GLuint leader_texture_ = 0, leader_buffer_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
-    GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0;
+    GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
     std::vector<float> mesh_key_;
     float enclosed_ = 0.0f; // radius of a ball inside the head, m, before head.scale

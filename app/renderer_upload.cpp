@@ -97,6 +97,15 @@ void Renderer::upload_mesh(const FrameInput& frame)
     enclosed_ = enclosed_radius(vertices, assets.head.triangles, scalp.center);
 }
 
+// What is put in order: a whole strand, or of a tied one what lies before and behind its ring, which go other ways.
+enum Piece : unsigned
+{
+    kWhole,
+    kToRing,
+    kBehindRing,
+    kPieces
+};
+
 // Strands from far to near, by their middle node, so that their soft edges blend over what lies behind them. Segments
 // that the head hides are left out.
 void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward)
@@ -104,13 +113,32 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
     const Groom& groom = frame.simulation->solver().groom();
     const unsigned nodes = unsigned(groom.nodes), strands = unsigned(groom.drawn.size());
     const float4* p = frame.drawn_positions.as<float4>();
-    order_.clear();
-    for (unsigned s = 0; s < strands; ++s)
+    const auto at_ring = [&](unsigned s) // the first node behind it, or 0
     {
-        const float4 middle = p[s * nodes + (nodes + 1) / 2];
-        const float depth = middle.x * forward.x + middle.y * forward.y + middle.z * forward.z;
-        order_.emplace_back(std::isfinite(depth) ? -depth : 0.0f, s);
-    }
+        if (s >= groom.tied.size() || groom.tied[s].ring == 0.0f)
+            return 0u;
+        const float cut = std::max(groom.drawn[s].root.w, 1e-3f);
+        return std::clamp(unsigned(2.0f + (groom.tied[s].ring - 1.0f) / cut), 2u, nodes - 1);
+    };
+    order_.clear();
+    const auto add = [&](unsigned s, Piece piece, unsigned node, float later)
+    {
+        const float4 at = p[s * nodes + node];
+        const float depth = at.x * forward.x + at.y * forward.y + at.z * forward.z - later;
+        order_.emplace_back(std::isfinite(depth) ? -depth : 0.0f, s * kPieces + piece);
+    };
+    for (unsigned s = 0; s < strands; ++s)
+        if (const unsigned ring = at_ring(s))
+        {
+            const TiedStrand& tied = groom.tied[s];
+            const Tail& tail = groom.tails[size_t(tied.tail)];
+            add(s, kToRing, (1 + ring) / 2, 0.0f);
+            // The nodes of a braid are its middle's: what lies inside of a plait first.
+            const float later = tail.axis.w > 0.0f ? tail.plait * std::hypot(tied.place.x, tied.place.y) : 0.0f;
+            add(s, kBehindRing, (ring + nodes) / 2, later);
+        }
+        else
+            add(s, kWhole, (nodes + 1) / 2, 0.0f);
     std::sort(order_.begin(), order_.end());
     const Solver& solver = frame.simulation->solver();
     const StepInfo& info = solver.info();
@@ -131,10 +159,13 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
     };
     indices_.clear();
     indices_.reserve(size_t(strands) * (nodes - 2) * 4);
-    for (const auto& [depth, s] : order_)
+    for (const auto& [depth, piece] : order_)
     {
-        bool near_hidden = hidden(s, 1);
-        for (unsigned k = 1; k + 1 < nodes; ++k) // the segment under the scalp is not drawn
+        const unsigned s = piece / kPieces, part = piece % kPieces;
+        const unsigned begin = part == kBehindRing ? at_ring(s) : 1; // the segment under the scalp is not drawn
+        const unsigned end = part == kToRing ? at_ring(s) + 1 : nodes;
+        bool near_hidden = hidden(s, begin);
+        for (unsigned k = begin; k + 1 < end; ++k)
         {
             const bool far_hidden = hidden(s, k + 1);
             if (!std::exchange(near_hidden, far_hidden) || !far_hidden)
@@ -211,6 +242,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    upload_braids(frame);
     if (params.render_show != 1)
     {
         upload_looks(frame.simulation->solver().groom().looks);

@@ -1,6 +1,8 @@
 #include "app/viewport.h"
 
+#define GLM_ENABLE_EXPERIMENTAL
 #include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +56,8 @@ template <typename Distance> static std::optional<double> traced(const Ray& ray,
     return std::nullopt;
 }
 
-static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, const Pose& head)
+// Where the ray first comes this near to the head's grid, m.
+static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, const Pose& head, double near = 0.0)
 {
     if (!body.grid)
         return std::nullopt;
@@ -68,7 +71,7 @@ static std::optional<double> hit_body(const Ray& ray, const PlacedGrid& body, co
                       const glm::dvec3 p = glm::conjugate(head.turn) * (world - head.origin);
                       // Outside of the grid its distances are too long to go by.
                       const double outside = glm::distance(p, glm::clamp(p, low, high));
-                      return outside > 0.0 ? outside + 0.5 * voxel : double(distance_to(body, glm::vec3(p)));
+                      return outside > 0.0 ? outside + 0.5 * voxel : double(distance_to(body, glm::vec3(p))) - near;
                   });
 }
 
@@ -83,6 +86,21 @@ static std::optional<double> hit_collider(const Ray& ray, const Capsule& c, glm:
                   {
                       const double share = std::clamp(glm::dot(p - center, axis) * double(c.axis.w), 0.0, 1.0);
                       return glm::distance(p, center + axis * share) - c.center.w;
+                  });
+}
+
+// A ring is easier to take hold of than it is thick.
+static std::optional<double> hit_ring(const Ray& ray, const Tie& tie, double scale, const Pose& head)
+{
+    const glm::dvec3 center = head.origin + head.turn * (glm::dvec3(tie.at) * scale);
+    const glm::dvec3 axis = head.turn * glm::normalize(glm::dvec3(tie.axis));
+    return traced(ray, 1e-4,
+                  [&](glm::dvec3 p)
+                  {
+                      const double along = glm::dot(p - center, axis);
+                      const double out = glm::length(p - center - along * axis);
+                      const double inside = std::max(0.0, out - double(tie.radius)); // the hair in it counts as well
+                      return std::hypot(along, inside) - double(tie.thickness) - 0.003;
                   });
 }
 
@@ -152,6 +170,21 @@ Grab grab(const Simulation& simulation, const Camera& camera, double x, double y
              i >= of_head ? origin + glm::dvec3(c.x, c.y, c.z) : simulation.hand().origin);
     }
     held.turn_before = simulation.hand().turn;
+    const Pose& head = simulation.solver().head();
+    const std::vector<Tie>& ties = simulation.style().host.ties;
+    for (size_t i = 0; i < ties.size(); ++i)
+    {
+        const double scale = double(simulation.params().head_scale);
+        const std::optional<double> at = hit_ring(ray, ties[i], scale, head);
+        if (!at || *at >= nearest)
+            continue;
+        nearest = *at;
+        held.what = Grab::TIE;
+        held.tie = i;
+        held.tie_before = ties[i];
+        held.start = head.origin + head.turn * (glm::dvec3(ties[i].at) * scale);
+        held.aside = glm::normalize(held.start - ray.origin) - ray.direction;
+    }
     return held;
 }
 
@@ -232,6 +265,35 @@ glm::vec3 dragged_collider(const Grab& held, const Simulation& simulation, const
     // What a file may say: near the horizon a pixel is very far.
     return glm::clamp(glm::vec3(on_head ? glm::conjugate(head.turn) * (center - head.origin) : center), -100.0f,
                       100.0f);
+}
+
+Tie dragged_tie(const Grab& held, const Simulation& simulation, const Camera& camera, double x, double y, int width,
+                int height)
+{
+    const Pose& head = simulation.solver().head();
+    const PlacedGrid& body = simulation.solver().body();
+    const TieGround ground = tie_ground(simulation.style(), simulation.assets(), body);
+    Ray ray = ray_through(camera, x, y, width, height);
+    ray.direction = glm::normalize(ray.direction + held.aside);
+    Tie tie = held.tie_before;
+    const float scale = simulation.params().head_scale;
+    const float high = std::max(height_above(ground, tie.at * scale), tie.thickness);
+    // Where one looks at that height over the head; beside it, what of it is nearest.
+    std::optional<double> at = hit_body(ray, body, head, double(high));
+    const std::vector<Capsule> placed = simulation.solver().placed_colliders(); // the head's own come first
+    for (size_t i = 0; i < ground.spheres.size(); ++i)
+    {
+        Capsule around = placed[i];
+        around.center.w += high;
+        if (const std::optional<double> on = hit_collider(ray, around, head.origin); on && (!at || *on < *at))
+            at = on;
+    }
+    const glm::dvec3 seen = at ? ray.origin + ray.direction * *at : on_facing_plane(ray, camera, held.start);
+    const RingPlace before = ring_place(ground, tie.at * scale, high);
+    const RingPlace now = ring_place(ground, glm::vec3(glm::conjugate(head.turn) * (seen - head.origin)), high);
+    tie.at = glm::clamp(now.at / scale, -100.0f, 100.0f);
+    tie.axis = glm::rotation(before.out, now.out) * tie.axis;
+    return tie;
 }
 
 } // namespace coif

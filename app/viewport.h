@@ -51,16 +51,20 @@ struct Grab
         TURN_HEAD,
         COLLIDER,
         BRUSH,
-        CUT
+        CUT,
+        TIE
     } what = NONE;
-    size_t collider = 0;           // of the style
+    size_t collider = 0; // of the style
+    size_t tie = 0;      // of the style
+    Tie tie_before;
+    glm::dvec3 aside{0.0};         // from the line of sight through the press to that through the ring's middle
     glm::dvec3 start{0.0};         // where it was taken, world
     glm::dvec3 origin_before{0.0}; // of the head or the collider, world
     glm::dquat turn_before{1, 0, 0, 0};
     double x = 0, y = 0; // of the press, pixels
 };
 
-// What lies under the pixel: a collider of the style, the head, or nothing (then the drag orbits).
+// What lies under the pixel: a tie's ring, a collider of the style, the head, or nothing (then the drag orbits).
 Grab grab(const Simulation& simulation, const Camera& camera, double x, double y, int width, int height, bool turn);
 
 // The head's pose for the mouse at (x, y) while MOVE_HEAD or TURN_HEAD.
@@ -69,5 +73,10 @@ Pose dragged_head(const Grab& held, const Camera& camera, double x, double y, in
 // The collider's centre in its own frame for the mouse at (x, y) while COLLIDER.
 glm::vec3 dragged_collider(const Grab& held, const Simulation& simulation, const Camera& camera, double x, double y,
                            int width, int height);
+
+// The tie with its ring over the head under the mouse at (x, y) while TIE, as high above it and leaning against it as
+// it was. Never inside: at least as high as its thickness.
+Tie dragged_tie(const Grab& held, const Simulation& simulation, const Camera& camera, double x, double y, int width,
+                int height);
 
 } // namespace coif

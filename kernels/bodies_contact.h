@@ -3,6 +3,7 @@
 #ifndef COIF_BODIES_CONTACT_H
 #define COIF_BODIES_CONTACT_H
 #include "bodies.h"
+#include "held.h"
 
 // Takes a node that would end inside a body to its surface, and rubs it: Coulomb friction takes up to `friction` times
 // the way it was pushed from how far it slid over the body. Node from x, going by *move, while the head went last ->
@@ -31,9 +32,11 @@ static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose no
 // Root to tip, the last word of a substep: each node at its exact length from its parent and, if that is inside a body,
 // on the circle where that length meets the body's surface (its tangent plane, found again from where that led). Where
 // the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
-// is how deep node k may still be. Returns the strands that it found in contact.
+// is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Returns the strands that it found in
+// contact.
 #define WALK_ROUNDS 6
-static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, const real* inside)
+static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, held_count held,
+                             const real* inside)
 {
     whole touched = (whole)(0);
     for (int k = 2; k < NODES; ++k)
@@ -52,7 +55,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             Points n;
             whole on_head;
             const real gap = nearest_body(bodies, head, at, &n, &on_head) + inside[k];
-            const whole in = gap < 0.0f;
+            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < 0.0f);
             if (!any_lane(in))
                 break;
             touched |= in;
@@ -100,7 +103,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             was_in = in;
             at = points(parent.x + d.x, parent.y + d.y, parent.z + d.z);
         }
-        x[k] = at;
+        x[k] = POINTS_UNLESS_HELD(k, held, x[k], at);
     }
     return touched;
 }

@@ -53,10 +53,31 @@ static inline real laid_on(float along, Adornment of, constant HairParams* param
     return profile_at(params->wave_along, along) * (sqrt(n * n + b * b) + curl + frizz);
 }
 
+#ifdef BRAIDED
+// What of the lanes is plaited, and where: in nodes, m for a node, m, and half the braid's thickness.
+typedef struct BraidedLanes
+{
+    real ring, per_node, pitch, depth;
+    whole which;
+} BraidedLanes;
+
+// braid_share() at a place along the strands, in nodes.
+static inline real braid_shares(const BraidedLanes* braid, real node)
+{
+    const real t = clamp(3.0f * (node - braid->ring) * braid->per_node / braid->pitch, (real)(0.0f), (real)(1.0f));
+    return select((real)(0.0f), t * t * (3.0f - 2.0f * t), braid->which);
+}
+#endif
+
 // Moves nodes 2 and up out of head and colliders, with room to spare.
 static inline void keep_out(Points* node, real layer, Adornment of, global const float* body_distance,
                             global const float4* body_way, constant Capsule* colliders, constant HairParams* params,
-                            constant StepInfo* info)
+                            constant StepInfo* info
+#ifdef BRAIDED
+                            ,
+                            const BraidedLanes* braid, real cut
+#endif
+)
 {
     Points low = node[1], high = node[1];
     real most = (real)(0.0f);
@@ -66,7 +87,10 @@ static inline void keep_out(Points* node, real layer, Adornment of, global const
         high = points(fmax(high.x, node[k].x), fmax(high.y, node[k].y), fmax(high.z, node[k].z));
         most = fmax(most, laid_on((float)(k - 1) / (float)(NODES - 2), of, params));
     }
-    const float most_room = info->clearance + greatest(layer) + greatest(most);
+    float most_room = info->clearance + greatest(layer) + greatest(most);
+#ifdef BRAIDED
+    most_room += greatest(braid->depth);
+#endif
     short near[MOST_COLLIDERS];
     int near_count =
         colliders_near(colliders, info->colliders, (float3)(least(low.x), least(low.y), least(low.z)),
@@ -75,7 +99,10 @@ static inline void keep_out(Points* node, real layer, Adornment of, global const
     for (int k = 2; k < NODES; ++k)
     {
         const float along = (float)(k - 1) / (float)(NODES - 2);
-        const real room = info->clearance + layer * min(1.0f, 4.0f * along) + laid_on(along, of, params);
+        real room = info->clearance + layer * min(1.0f, 4.0f * along) + laid_on(along, of, params);
+#ifdef BRAIDED // as one body
+        room = mix(room, info->clearance + braid->depth, braid_shares(braid, 1.0f + (float)(k - 1) * cut));
+#endif
         Points p = node[k];
         out_of_all(body_distance, body_way, colliders, near, near_count, &p, room, info);
         const Points moved = points(p.x - node[k].x, p.y - node[k].y, p.z - node[k].z);

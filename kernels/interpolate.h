@@ -63,7 +63,12 @@ static inline void finish_strands(const Points* full, const int* strand, global 
                                   global const StrandLook* looks, global float4* drawn_position,
                                   global const float* depth,
                                   global const float* body_distance, global const float4* body_way,
-                                  constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
+                                  constant Capsule* colliders, constant HairParams* params, constant StepInfo* info
+#ifdef BRAIDED
+                                  ,
+                                  const BraidedLanes* braid
+#endif
+)
 {
     float cuts[WIDTH];
 #pragma unroll
@@ -75,7 +80,12 @@ static inline void finish_strands(const Points* full, const int* strand, global 
     fly_away(node, strand, strands, params, info);
 #endif
     keep_out(node, layers_of(strand, strands, params), adornment_of(strand, looks, params), body_distance, body_way,
-             colliders, params, info);
+             colliders, params, info
+#ifdef BRAIDED
+             ,
+             braid, LANES_LOAD(cuts)
+#endif
+    );
     for (int k = 0; k < NODES; ++k)
     {
         real light = (real)(1.0f);

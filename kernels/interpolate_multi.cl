@@ -21,8 +21,15 @@ static inline real kept_weight(global const float* position, const int* heaviest
     return 1.0f - smoothstep((real)(parting), (real)(2.0f * parting), parted);
 }
 
+#ifdef TIED
+#include "tails.h"
+#endif
+
 kernel void interpolate_multi(global const float* position, global const DrawnStrand* strands,
                               global const StrandLook* looks, global float4* drawn_position, global const float* depth,
+#ifdef TIED
+                              global const TiedStrand* tied, constant Tail* tails,
+#endif
                               global const float* body_distance, global const float4* body_way,
                               constant Capsule* colliders, constant HairParams* params, constant StepInfo* info)
 {
@@ -62,7 +69,22 @@ kernel void interpolate_multi(global const float* position, global const DrawnSt
     const Points root = turn_by(info->head_row0, info->head_row1, info->head_row2,
                                 points(LANES_LOAD(rx), LANES_LOAD(ry), LANES_LOAD(rz)));
     const Points shift = points(root.x - node[1].x, root.y - node[1].y, root.z - node[1].z);
+#ifdef TIED
+    const TiedLanes ties = tied_lanes(tied, tails, strand);
+#define SHIFTED(k) shifted_share(&ties, k)
+#else
+#define SHIFTED(k) 1.0f
+#endif
     for (int k = 0; k < NODES; ++k)
-        node[k] = points(node[k].x + shift.x, node[k].y + shift.y, node[k].z + shift.z);
-    finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info);
+        node[k] = points(node[k].x + SHIFTED(k) * shift.x, node[k].y + SHIFTED(k) * shift.y,
+                         node[k].z + SHIFTED(k) * shift.z);
+#ifdef TIED
+    hang_in_tails(&ties, position, node, info);
+#endif
+    finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info
+#ifdef BRAIDED
+                   ,
+                   &ties.braid
+#endif
+    );
 }

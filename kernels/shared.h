@@ -167,6 +167,34 @@ typedef struct StrandLook
     float4 wave;       // along the normal: amplitude (m), frequency (1/m); along the binormal the same
     float4 own;        // seed; radius of its curl, frizz (m); w unused
 } StrandLook;
+// What ties make of a drawn strand (sim/tied_hair.h), beside its DrawnStrand.
+typedef struct TiedStrand
+{
+    float4 place; // of a tail: in its cross-section, along side and front, in its radii; of a braid: in that of its
+                  // plait, in the plait's radii, and z: the plait's phase, rad
+    float ring;   // where along the whole strand the tie's ring is, in nodes; 0: it is not tied
+    int tail;     // that it hangs in
+    int unused0, unused1;
+} TiedStrand;
+
+// What hangs out of a tie's ring, about the line of one guide: a tail, or three plaits (kernels/strand_curve.h,
+// braid_offset()).
+typedef struct Tail
+{
+    float4 axis;    // the way out of the ring, unit length, in the head's frame; w: m along a braid in which a plait
+                    // goes over and back, 0: a tail
+    float4 side;    // across it, unit length; w: m that plaits swing to either side
+    float depth;    // m that they swing to front and back
+    float plait;    // radius of a plait, m
+    float bound;    // m behind the ring, where a braid is bound; it is loose beyond
+    float length;   // m behind the ring to the tips
+    float ring;     // where along the guide the ring is, in nodes
+    float radius;   // of a tail at the ring, m
+    float fullest;  // of a tail where it is widest, m
+    float together; // how far the strands of a tail keep their places about that line, 0 to 1
+    int guide;
+    int unused0, unused1, unused2;
+} Tail;
 
 #ifdef __cplusplus
 } // namespace coif

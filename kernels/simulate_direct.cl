@@ -10,7 +10,7 @@
 //
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
-// (with CONTACT) and DENSITY are build options.
+// (with CONTACT), DENSITY and HELD are build options.
 #include "bodies_contact.h"
 #include "direct.h"
 #include "faults.h"
@@ -62,6 +62,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                             global int* pace_next, global const float* root_position,
                             global const float* root_direction, global const float* segment_length,
                             global const float* rest_position, global const float* rest_bend,
+#ifdef HELD
+                            global const int* held_nodes,
+#endif
                             global const float* root_normal, global const float* bend_factor,
                             global const float* gradient, global int* density,
                             global float* moved, global int* resets, global int* faults,
@@ -82,6 +85,14 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const int substeps = 1 << level;
     const float h = info->substep / (float)substeps;
 
+#ifdef HELD
+    const held_count held = LANES_LOAD(held_nodes + strand);
+    int most_held = 2;
+    while (most_held < NODES && any_lane(most_held < held))
+        ++most_held;
+#else
+    const held_count held = 2;
+#endif
     const Points root_local = load_lanes(root_position + root), direction_local = load_lanes(root_direction + root);
     const HeadPose begin = head_pose(path, 0), end = head_pose(path, MOST_SUBSTEPS);
 
@@ -117,10 +128,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         fmin(per_length * (info->bend_droop + info->bend_modulus * per_length * per_length * per_length) *
                  LANES_LOAD(bend_factor + strand),
              (real)(info->bend_most));
-    float weight[NODES];
-    element_weights(params->bending_attenuation, params->bending_along, weight);
+    lane_share weight[NODES];
+    element_weights(params->bending_attenuation, params->bending_along, held, weight);
     Factor factor;
-    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass);
+    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass, held);
 #endif
 #ifdef CONTACT
     Bodies near;
@@ -183,8 +194,15 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         }
         if (isinf(tip_mass)) // held where it is: its inverse mass is 0
             move[NODES - 1] = points((real)(0.0f), (real)(0.0f), (real)(0.0f));
+#ifdef HELD
+        for (int i = 2; i < most_held; ++i)
+        {
+            const Points carried = out_of_head(now, load_lanes(rest_position + first + i * 3 * LANES));
+            move[i] = select_points(move[i], minus(carried, x[i]), i < held);
+        }
+#endif
 #ifdef BENDING
-        add_bending(x, move, along, rest, hg * stiffness, weight
+        add_bending(x, move, along, rest, hg * stiffness, weight, held
 #ifdef CURLED
                     ,
                     turn_by(now.row0, now.row1, now.row2, load_lanes(root_normal + root)), rest_bend + first
@@ -199,7 +217,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         for (int i = 2; i < NODES && any_near(&near); ++i)
         {
             inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
-            push_and_rub(&near, last, now, x[i], &move[i], inside[i], params->forces_friction);
+            Points pushed = move[i];
+            push_and_rub(&near, last, now, x[i], &pushed, inside[i], params->forces_friction);
+            move[i] = POINTS_UNLESS_HELD(i, held, move[i], pushed);
         }
 #endif
 
@@ -211,14 +231,14 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         real residual = (real)(0.0f);
         for (int newton = 0; newton < MOST_NEWTON && any_lane(open); ++newton)
         {
-            keep_lengths_direct(a, move, pull, rest, (real)(hg), tip_mass, open);
-            residual = length_residual(a, move, rest);
+            keep_lengths_direct(a, move, pull, rest, (real)(hg), tip_mass, held, open);
+            residual = length_residual(a, move, rest, held);
             open &= residual >= LENGTH_TOLERANCE;
         }
         const whole failed = open & (residual >= 4.0f * LENGTH_TOLERANCE);
         const int any_rescued = any_lane(failed);
         if (any_rescued)
-            kept = rescue(x, predicted, move, pull, rest, tip_mass, failed, &bad);
+            kept = rescue(x, predicted, move, pull, rest, tip_mass, held, failed, &bad);
 
 #ifdef CONTACT
         if (any_near(&near))
@@ -226,7 +246,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)
                 walked[i] = plus(x[i], move[i]);
-            const whole touched = walk_out(&near, now, walked, rest, inside);
+            const whole touched = walk_out(&near, now, walked, rest, held, inside);
             if (any_lane(touched))
                 for (int i = 2; i < NODES; ++i)
                     move[i] = select_points(move[i], minus(walked[i], x[i]), touched);
@@ -237,7 +257,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         {
             v[i] = move[i];
             if (i > 1 && any_rescued)
-                v[i] = select_points(v[i], plus(move[1], times(kept, minus(move[i], move[1]))), failed);
+            {
+                const Points spared = plus(move[1], times(kept, minus(move[i], move[1])));
+                v[i] = POINTS_UNLESS_HELD(i, held, move[i], select_points(v[i], spared, failed));
+            }
             x[i] = plus(x[i], move[i]);
             tensest = fmax(tensest, fabs(pull[i]));
         }

@@ -4,8 +4,8 @@
 //   v  <- v e^(-b h) + a (1 - e^(-b h)) / b          drag exactly, any b h
 //   x* <- x + h v,  constraints on x*,  v <- (x* - x) / h
 //
-// Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION, DENSITY and BODY_GRID are build
-// options.
+// Work-item: WIDTH strands. NODES, RESOLUTION and the features WIND, REPULSION, DENSITY, BODY_GRID and HELD are
+// build options.
 #include "contact.h"
 #include "distance_grid.h"
 #include "faults.h"
@@ -38,8 +38,30 @@ static inline void turn(real* x, real* y, real* z, constant StepInfo* info)
     *z = info->turn_row2.x * a + info->turn_row2.y * b + info->turn_row2.z * c;
 }
 
+// Puts the held nodes of those from `begin` to `end` where the head has them at rest.
+#ifdef HELD
+static inline void hold_nodes(real* x, real* y, real* z, int begin, int end, global const float* rest_position,
+                              whole held, constant StepInfo* info)
+{
+    for (int i = begin; i < end && any_lane(i < held); ++i)
+    {
+        const Points at =
+            turn_by(info->head_row0, info->head_row1, info->head_row2, load_lanes(rest_position + i * 3 * LANES));
+        x[i] = select(x[i], at.x, i < held);
+        y[i] = select(y[i], at.y, i < held);
+        z[i] = select(z[i], at.z, i < held);
+    }
+}
+#define HOLD_NODES(begin, end) hold_nodes(x, y, z, begin, end, rest_position + first, held, info)
+#else
+#define HOLD_NODES(begin, end)
+#endif
+
 kernel void simulate_pbd(global float* position, global float* velocity, global const float* root_position,
                          global const float* root_direction, global const float* segment_length,
+#ifdef HELD
+                         global const float* rest_position, global const int* held_nodes,
+#endif
                          global const float* gradient, global int* density, global int* resets, global int* faults,
                          global const float* body_distance, constant Capsule* colliders, constant HairParams* params,
                          constant StepInfo* info)
@@ -51,6 +73,11 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     const int root = strand_value(strand, 0, 0, 1);
     const real rest = LANES_LOAD(segment_length + strand) * params->strand_spacing;
     const float h = info->substep;
+#ifdef HELD
+    const held_count held = LANES_LOAD(held_nodes + strand);
+#else
+    const held_count held = 2;
+#endif
 
     // Where the strand was, carried along rigidly if the head has just jumped.
     real ox[NODES], oy[NODES], oz[NODES];
@@ -106,6 +133,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         y[i] = oy[i] + h * vy - info->origin_move.y;
         z[i] = oz[i] + h * vz - info->origin_move.z;
     }
+    HOLD_NODES(2, NODES);
 
     float bend[NODES];
     for (int i = 2; i < NODES; ++i)
@@ -145,10 +173,11 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         for (int c = 0; c < near_count; ++c)
             for (int i = 2; i < NODES; ++i)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
-        keep_lengths(x, y, z, rest, strength, 2);
-        keep_lengths(x, y, z, rest, strength, 1);
+        HOLD_NODES(2, NODES);
+        keep_lengths(x, y, z, rest, strength, held, 2);
+        keep_lengths(x, y, z, rest, strength, held, 1);
         if (info->bend > 0.0f)
-            straighten(x, y, z, rest, params->solver_bending_scale, bend);
+            straighten(x, y, z, rest, params->solver_bending_scale, bend, held);
     }
 
     // The last word, in one walk from root to tip: hair that shall not stretch is taken back to its length, and hair
@@ -168,6 +197,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 #endif
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
+            HOLD_NODES(i, i + 1);
         }
 
     // A strand that is not finite, or came in so, starts again from its rest shape; its neighbours do not notice.
@@ -180,6 +210,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         y[i] = select(y[i], y[1] + rest * (float)(i - 1) * wy, bad != 0);
         z[i] = select(z[i], z[1] + rest * (float)(i - 1) * wz, bad != 0);
     }
+    HOLD_NODES(2, NODES);
 
     const float per_second = 1.0f / h;
     for (int i = 0; i < NODES; ++i)

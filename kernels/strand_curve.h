@@ -49,6 +49,38 @@ CURVE_FUNCTION float wave_onset(float along, float begin)
     return t * t * (3.0f - 2.0f * t);
 }
 
+// How far a strand has come into its braid at `behind` (m) from the ring, wholly after a third of a turn.
+CURVE_FUNCTION float braid_share(float behind, float pitch)
+{
+    float t = clamp(3.0f * behind / pitch, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+#define BRAID_FLAT 0.7f // plaits are pressed flat where they cross
+
+// Where a strand lies off the line that its braid is plaited about, `behind` (m) the ring: along the braid's width,
+// front and length. The plaits' middles swing as sin a to the sides and sin 2a to front and back, a third of a turn
+// apart; the strand keeps its place (in the plait's radii; z: phase) in a cross-section that turns with the plait.
+// Towards `bound` (m) all are drawn together, and hang loose beyond. `swing`, `depth` and `plait` in m.
+CURVE_FUNCTION float4 braid_offset(float behind, float4 place, float pitch, float swing, float depth, float plait,
+                                   float bound)
+{
+    float rate = 6.28318531f / pitch, angle = rate * behind + place.z;
+    float slope_x = swing * rate * cos(angle), slope_y = 2.0f * depth * rate * cos(2.0f * angle);
+    // Across the plait: along the width first, then what is left.
+    float across = 1.0f / sqrt(1.0f + slope_x * slope_x);
+    float whole_slope = 1.0f / sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);
+    float u = plait * place.x, v = BRAID_FLAT * plait * place.y;
+    float4 woven = FLOAT4(swing * sin(angle) + u * across - v * slope_x * slope_y * across * whole_slope,
+                          depth * sin(2.0f * angle) + v * whole_slope / across,
+                          -u * slope_x * across - v * slope_y * across * whole_slope, 0.0f);
+    float t = clamp((behind - bound) / (0.5f * pitch) + 1.0f, 0.0f, 1.0f);
+    float loose = t * t * (3.0f - 2.0f * t);
+    float tassel = plait * (0.75f + 0.5f * clamp((behind - bound) / pitch, 0.0f, 1.0f));
+    float4 gathered = FLOAT4(tassel * (0.6f * sin(place.z) + 0.5f * place.x), 0.9f * tassel * place.y, 0.0f, 0.0f);
+    return woven * (1.0f - loose) + gathered * loose;
+}
+
 // A number in [0, 1) that depends on nothing but the strand and what it is for. PCG output, O'Neill 2014.
 CURVE_FUNCTION float strand_random(int seed, int purpose)
 {

@@ -22,8 +22,49 @@ static inline Points across(Points v, Points along)
     return points(v.x - along.x * part, v.y - along.y * part, v.z - along.z * part);
 }
 
+#ifdef BRAIDED
+// What braided strands share: the way across the braid at its ring, and where along each strand that is.
+typedef struct BraidSides
+{
+    Points axis, side;
+    real ring; // in nodes of the strand as it is cut; beyond its tip: it is not braided
+} BraidSides;
+
+static inline BraidSides braid_sides(global const DrawnStrand* strands, global const TiedStrand* tied,
+                                     constant Tail* tails, const int* strand, constant StepInfo* info)
+{
+    float ring[WIDTH], ax[WIDTH], ay[WIDTH], az[WIDTH], sx[WIDTH], sy[WIDTH], sz[WIDTH];
+    for (int lane = 0; lane < WIDTH; ++lane)
+    {
+        const int mixed = strand[lane] < info->drawn_multi;
+        const TiedStrand own = tied[mixed ? strand[lane] : 0];
+        constant Tail* braid = tails + own.tail;
+        ring[lane] = mixed && own.ring > 0.0f && braid->axis.w > 0.0f
+                         ? 1.0f + (own.ring - 1.0f) / strands[strand[lane]].root.w
+                         : (float)NODES;
+        ax[lane] = braid->axis.x;
+        ay[lane] = braid->axis.y;
+        az[lane] = braid->axis.z;
+        sx[lane] = braid->side.x;
+        sy[lane] = braid->side.y;
+        sz[lane] = braid->side.z;
+    }
+    BraidSides sides;
+    sides.axis = turn_by(info->head_row0, info->head_row1, info->head_row2,
+                         points(LANES_LOAD(ax), LANES_LOAD(ay), LANES_LOAD(az)));
+    sides.side = turn_by(info->head_row0, info->head_row1, info->head_row2,
+                         points(LANES_LOAD(sx), LANES_LOAD(sy), LANES_LOAD(sz)));
+    sides.ring = LANES_LOAD(ring);
+    return sides;
+}
+#endif
+
 kernel void transport_frames(global const float4* drawn_position, global float4* drawn_frame,
-                             global const DrawnStrand* strands, constant StepInfo* info)
+                             global const DrawnStrand* strands,
+#ifdef BRAIDED
+                             global const TiedStrand* tied, constant Tail* tails,
+#endif
+                             constant StepInfo* info)
 {
     const int first = get_global_id(0) * WIDTH;
     if (first >= info->drawn)
@@ -52,11 +93,19 @@ kernel void transport_frames(global const float4* drawn_position, global float4*
 #endif
     store_node(drawn_frame, strand, 0, normal, length_so_far);
 
+#ifdef BRAIDED
+    const BraidSides braid = braid_sides(strands, tied, tails, strand, info);
+#endif
     for (int k = 1; k < NODES; ++k)
     {
         p = load_node(drawn_position, strand, k);
         const Points segment = points(p.x - last.x, p.y - last.y, p.z - last.z);
         const Points next = unit_or(segment, tangent);
+#ifdef BRAIDED // all strands of a braid carry the same normal on from its ring
+        const whole enters = ((float)k > braid.ring) & ((float)k - 1.0f <= braid.ring);
+        normal = select_points(normal, braid.side, enters);
+        tangent = select_points(tangent, braid.axis, enters);
+#endif
         // Rotation of t onto t' applied to n perpendicular to t: n - (n.t') / (1 + t.t') (t + t').
         const real turn = 1.0f + dot_lanes(tangent, next);
         const real by = select(zero, dot_lanes(normal, next) / turn, turn > 1e-4f);

@@ -16,6 +16,7 @@ layout(triangle_strip, max_vertices = 62) out;
 #include "curve.glsl"
 #include "kajiya_kay.glsl"
 #include "look.glsl"
+#include "braid.glsl"
 
 uniform sampler1D wave;         // both perpendiculars' waves, sim/wave.cpp
 uniform sampler1D ramp;         // colours that tell a value, app/strand_colors.h
@@ -46,6 +47,17 @@ vec3 curve_at(float t)
            w.w * gl_in[3].gl_Position.xyz;
 }
 
+// The tangent that both neighbours give at a node is the same, so waves and plaits join there.
+void frame_at(float t, out vec3 tangent, out vec3 normal)
+{
+    tangent = mix(gl_in[2].gl_Position.xyz - gl_in[0].gl_Position.xyz,
+                  gl_in[3].gl_Position.xyz - gl_in[1].gl_Position.xyz, t);
+    tangent *= inversesqrt(max(dot(tangent, tangent), 1e-20));
+    normal = mix(node[1].normal.xyz, node[2].normal.xyz, t);
+    normal -= tangent * dot(normal, tangent);
+    normal *= inversesqrt(max(dot(normal, normal), 1e-20));
+}
+
 // What tells strands apart.
 struct Seeds
 {
@@ -74,13 +86,8 @@ vec3 laid_on(float t, Seeds seeds)
 {
     float along = mix(node[1].along, node[2].along, t);
     float distance_from_root = mix(node[1].normal.w, node[2].normal.w, t);
-    // The tangent that both neighbours give at a node is the same, so waves join there.
-    vec3 tangent = mix(gl_in[2].gl_Position.xyz - gl_in[0].gl_Position.xyz,
-                       gl_in[3].gl_Position.xyz - gl_in[1].gl_Position.xyz, t);
-    tangent *= inversesqrt(max(dot(tangent, tangent), 1e-20));
-    vec3 normal = mix(node[1].normal.xyz, node[2].normal.xyz, t);
-    normal -= tangent * dot(normal, tangent);
-    normal *= inversesqrt(max(dot(normal, normal), 1e-20));
+    vec3 tangent, normal;
+    frame_at(t, tangent, normal);
     vec2 across = vec2(0.0); // along the normal, along the binormal
     if (look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0)
     {
@@ -101,6 +108,15 @@ vec3 laid_on(float t, Seeds seeds)
     return profile_at(params.wave_along, along) * (normal * across.x + cross(tangent, normal) * across.y);
 }
 
+vec3 plaited(float t, out float open)
+{
+    vec3 tangent, normal;
+    frame_at(t, tangent, normal);
+    vec4 by = braid_at(mix(node[1].along, node[2].along, t));
+    open = by.w;
+    return by.x * normal + by.y * cross(tangent, normal) + by.z * tangent;
+}
+
 int pieces(float pixel)
 {
     vec3 bend1 = gl_in[0].gl_Position.xyz - 2.0 * gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz;
@@ -116,6 +132,11 @@ int pieces(float pixel)
                      look.binormal_amplitude * waves_b * waves_b + look.curl * turns * turns +
                      0.5 * look.frizz * minds * minds) *
              profile_at(params.wave_along, 0.5 * (node[1].along + node[2].along)) / pixel;
+    if (braid.pitch > 0.0 && braid.behind + node[2].along * braid.per_along > 0.0)
+    {
+        float woven = segment / braid.pitch;
+        stray += 4.93 * (braid.swing + 4.0 * braid.depth) * woven * woven / pixel;
+    }
     return clamp(int(ceil(sqrt(stray / kBendTolerance))), 1, params.smoothing_subdivisions);
 }
 
@@ -126,6 +147,7 @@ void main()
         return;
     float pixel = frame.camera_position.w * distance(frame.camera_position.xyz, 0.5 * (start + end));
     look = look_of(node[1].strand);
+    find_braid(node[1].strand);
     int count = pieces(pixel);
     bool adorned = look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0 ||
                    look.curl > 0.0 || look.frizz > 0.0;
@@ -139,12 +161,21 @@ void main()
         before += laid_on(-piece, seeds);
         here += laid_on(0.0, seeds);
     }
+    float open = 1.0; // to the light
+    if (braid.pitch > 0.0)
+    {
+        before += plaited(-piece, open);
+        here += plaited(0.0, open);
+    }
     for (int i = 0; i <= count; ++i)
     {
         float t = float(i) * piece;
         vec3 after = curve_at(t + piece);
         if (adorned)
             after += laid_on(t + piece, seeds);
+        float open_after = 1.0;
+        if (braid.pitch > 0.0)
+            after += plaited(t + piece, open_after);
         float along = mix(node[1].along, node[2].along, t);
 
         vec3 tangent = normalize(after - before + vec3(0.0, 1e-12, 0.0));
@@ -158,7 +189,7 @@ void main()
 
         vec3 hair = mix(look.root_color, look.tip_color, profile_at(params.look_color_along, along)) * brightness;
         float opacity = look.opacity * profile_at(params.look_opacity_along, along);
-        float light = mix(node[1].light, node[2].light, t);
+        float light = open * mix(node[1].light, node[2].light, t);
         if (node[1].value < 0.0)
             ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, light);
         else // lit little, so that a colour is the legend's
@@ -171,6 +202,7 @@ void main()
         }
         before = here;
         here = after;
+        open = open_after;
     }
     EndPrimitive();
 }

@@ -21,18 +21,26 @@ struct Groom
     std::vector<float> natural_position; // where nothing weighs on the strands; empty: straight
     std::vector<float> rest_position;    // where they begin, at rest under gravity; empty: the natural one
     std::vector<float> rest_multiplier;  // [block][node][lane], 1/s^2: tensions there, where known (bodies bear weight)
-    float hold = 1.0f;                   // of rest_position, that the strands take as their own
-    float tip_mass = 0.5f;               // of the last node: it stands for half a segment
-    std::vector<float> bend_factor;      // [block][lane], stiffness over what the parameters say; empty: 1
-    std::vector<DrawnStrand> drawn;      // mixed ones first
-    std::vector<StrandLook> looks;       // of each drawn strand; empty where they are all as the parameters say
+    // [block][lane]: nodes from the root on that are prescribed, at rest_position and with the head: those of strands
+    // that a tie holds (sim/tie.h). At least 2 and at most nodes - 1; empty: 2 everywhere.
+    std::vector<int> held;
+    float hold = 1.0f;              // of rest_position, that the strands take as their own
+    float tip_mass = 0.5f;          // of the last node: it stands for half a segment
+    std::vector<float> bend_factor; // [block][lane], stiffness over what the parameters say; empty: 1
+    std::vector<DrawnStrand> drawn; // mixed ones first
+    std::vector<StrandLook> looks;  // of each drawn strand; empty where they are all as the parameters say
     int drawn_multi = 0;
-    float longest = 0.0f;   // strand, m
-    float extent = 0.0f;    // of the scalp, m
-    glm::vec3 center{0.0f}; // of the scalp's sphere, in the head's frame, m
-    glm::vec3 middle{0.0f}; // of the roots' bounding box, in the head's frame, m
-    float farthest = 0.0f;  // root from the middle, m
+    std::vector<TiedStrand> tied;   // of each mixed strand; empty without ties
+    std::vector<Tail> tails;        // of each tie; of no length if no strand comes through
+    std::vector<int> short_of_ring; // of each tie: guides that are its own and too short to reach it
+    float longest = 0.0f;           // strand, m
+    float extent = 0.0f;            // of the scalp, m
+    glm::vec3 center{0.0f};         // of the scalp's sphere, in the head's frame, m
+    glm::vec3 middle{0.0f};         // of the roots' bounding box, in the head's frame, m
+    float farthest = 0.0f;          // root from the middle, m
 };
+
+inline int held_nodes(const Groom& groom, int strand) { return groom.held.empty() ? 2 : groom.held[size_t(strand)]; }
 
 // Grows the hair that `params` (as authored) describes. Thesis 5.1.1 for roots, 5.1.4 for the drawn strands: mixed ones
 // are spread over the triangles by area, copies equally over the guides. Everything random hangs on

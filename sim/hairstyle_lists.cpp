@@ -191,6 +191,25 @@ struct EntryReader
                 values.push_back(plane);
             }
     }
+    void color(const char* name, glm::vec3& value)
+    {
+        const toml::node* node = get(name);
+        if (!node)
+            return;
+        double v[3];
+        Hairstyle read; // as any colour of a style
+        if (!read_numbers(*node, v, 3) && !node->is_string())
+            throw wrong(*node, name, fmt::format("must be a colour like \"#8a5a3c\", not {}", type_name(*node)));
+        try
+        {
+            read_value(read, *find_param("look.root_color"), *node);
+        }
+        catch (const Error&)
+        {
+            throw wrong(*node, name, "must be a colour like \"#8a5a3c\" or three numbers from 0 to 1");
+        }
+        get_numbers(read.params, *find_param("look.root_color"), &value.x);
+    }
     void flag(const char* name, bool& value)
     {
         const toml::node* node = get(name);
@@ -286,6 +305,10 @@ struct EntryWriter
     {
         put_list(name, values, [](const glm::vec4& plane) { return list_text(&plane.x, 4); });
     }
+    void color(const char* name, const glm::vec3& value)
+    {
+        put(name, setting_text({find_param("look.root_color"), glm::vec4(value, 1.0f)}));
+    }
     void flag(const char* name, bool value) { put(name, value ? "true" : "false"); }
     template <typename Choice> void choice(const char* name, Choice value, const char* labels)
     {
@@ -373,6 +396,12 @@ static void check(ScalpMap& map, const EntryReader& at)
                        color ? "must be \"over\" for a colour" : "must be \"factor\" or \"offset\" for a number");
     if (map.values.empty() == map.file.empty())
         throw fail("{}: a map needs either values or a file of them", place(at.file, at.table.source()));
+}
+
+static void check(const Tie& tie, const EntryReader& at)
+{
+    if (tie.axis == glm::vec3(0.0f))
+        throw at.wrong(*at.table.get("axis"), "axis", "must point somewhere, but is zero");
 }
 
 static size_t most_of(const ParamInfo& info)

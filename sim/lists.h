@@ -1,6 +1,8 @@
 // The [[tables]] of a hairstyle: what an entry of each holds, and its fields, declared once. Reader, writer and panel
 // walk fields(); `Entry` is const for those that only look.
 #pragma once
+#include "sim/tie.h"
+
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -75,6 +77,7 @@ using collider_entry = Collider;
 using region_entry = Region;
 using parting_entry = Parting;
 using map_entry = ScalpMap;
+using tie_entry = Tie;
 
 // What a number of an entry may be.
 struct Limits
@@ -125,6 +128,26 @@ void fields(Visitor& visit, Entry& entry)
     visit.choice("how", entry.how, "factor|offset|over");
     visit.numbers("values", entry.values, Limits{-1000.0f, 1000.0f, ""});
     visit.text("file", entry.file);
+}
+
+template <typename Visitor, typename Entry>
+requires std::same_as<std::remove_const_t<Entry>, Tie>
+void fields(Visitor& visit, Entry& entry)
+{
+    visit.text("name", entry.name);
+    visit.point("at", entry.at, kPlaces);
+    visit.point("axis", entry.axis, kPlaces);
+    visit.texts("regions", entry.regions);
+    visit.number("radius", entry.radius, Limits{0.002f, 0.2f, "m"});
+    visit.number("puff", entry.puff, Limits{0.0f, 0.05f, "m"});
+    visit.number("flare", entry.flare, Limits{0.0f, 60.0f, "deg"});
+    visit.number("fullness", entry.fullness, Limits{0.2f, 10.0f, ""});
+    visit.number("cohesion", entry.cohesion, Limits{0.0f, 1.0f, ""});
+    visit.number("thickness", entry.thickness, Limits{0.0005f, 0.05f, "m"});
+    visit.color("color", entry.color);
+    visit.flag("braid", entry.braid);
+    visit.number("braid_width", entry.braid_width, Limits{0.004f, 0.3f, "m"});
+    visit.number("braid_pitch", entry.braid_pitch, Limits{0.01f, 1.0f, "m"});
 }
 
 // The named parts of a head that Region::where may say.

@@ -118,7 +118,7 @@ static double tightest_of(const std::vector<float>& shape, const Groom& groom)
 {
     double most = 0.0;
     for (int s = 0; s < groom.blocks * LANES && !shape.empty(); ++s)
-        for (int e = 2; e + 1 < groom.nodes; ++e)
+        for (int e = held_nodes(groom, s); e + 1 < groom.nodes; ++e)
         {
             const Vec middle = vector_of(shape, s, e, groom.nodes);
             const Vec a = middle - vector_of(shape, s, e - 1, groom.nodes);
@@ -130,14 +130,14 @@ static double tightest_of(const std::vector<float>& shape, const Groom& groom)
 }
 
 // Of each element, as kernels/direct.h has it, where that of all is `all`, 1/s^2.
-static std::vector<double> stiffnesses(const HairParams& params, int nodes, double all)
+static std::vector<double> stiffnesses(const HairParams& params, int nodes, int held, double all)
 {
     const int links = nodes - 2;
     std::vector<double> of(size_t(nodes), 0.0);
     for (int e = 1; e + 1 < nodes; ++e)
     {
         const double along = double(e - 1) / links;
-        of[size_t(e)] = all * (e == 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * along) *
+        of[size_t(e)] = all * (e == held - 1 ? 2.0 : 1.0) * std::exp(-double(params.bending_attenuation) * along) *
                         profile_at(params.bending_along, along);
     }
     return of;
@@ -184,7 +184,7 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         if (at_rest)
         {
             std::vector<double> pull;
-            hold_up(x, stiffnesses(params, nodes, stiffness), groom.tip_mass, gravity, off, pull);
+            hold_up(x, stiffnesses(params, nodes, held_nodes(groom, s), stiffness), groom.tip_mass, gravity, off, pull);
             for (Vec& held : off)
             {
                 const double size = glm::length(held), most = kMostBend * rest;
@@ -193,7 +193,7 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
             const std::vector<Vec> held = bends(x, off, normal);
             for (size_t e = 0; e < bend.size(); ++e)
                 bend[e] = (1.0 - hold) * bend[e] + hold * held[e];
-            for (int k = 2; k < nodes && groom.rest_multiplier.empty(); ++k)
+            for (int k = held_nodes(groom, s); k < nodes && groom.rest_multiplier.empty(); ++k)
                 shape.multiplier[size_t((s / LANES * nodes + k) * LANES + s % LANES)] = float(pull[size_t(k)]);
         }
         for (int e = 1; e + 1 < nodes; ++e)

@@ -253,6 +253,13 @@ void check_entry(const HostParams& host, const ParamInfo& info, size_t index, co
             throw fail("the map of {} has {} values, but the scalp's {} vertices need {}", map.of, map.values.size(),
                        scalp.positions.size(), wanted);
     }
+    else if (info.group == std::string_view("tie"))
+    {
+        for (const std::string& name : host.ties[index].regions)
+            if (std::none_of(host.regions.begin(), host.regions.end(), [&](const Region& r) { return r.name == name; }))
+                throw fail("the tie '{}' gathers the hair of the region '{}', but no region is called that",
+                           host.ties[index].name, name);
+    }
     else if (info.group == std::string_view("region"))
     {
         const Region& region = host.regions[index];

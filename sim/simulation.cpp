@@ -20,42 +20,44 @@ static std::filesystem::path asset(const Hairstyle& style, const std::string& ke
     return resolve_path(style, key, written, data_folder() / "assets");
 }
 
+// A fault in what the style says is told with the place where the style says it.
+template <typename Action> static auto placed(const Hairstyle& style, const std::string& key, Action action)
+{
+    try
+    {
+        return action();
+    }
+    catch (const Error& e)
+    {
+        const auto at = style.places.find(key);
+        throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
+    }
+}
+
 Assets load_assets(const Hairstyle& style)
 {
     Assets assets;
-    // A fault in what the style names is told with the place where the style names it.
-    const auto placed = [&](const std::string& key, auto&& action)
-    {
-        try
-        {
-            return action();
-        }
-        catch (const Error& e)
-        {
-            const auto at = style.places.find(key);
-            throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
-        }
-    };
     const auto load = [&](const char* key, const std::string& written, auto&& read)
     {
         const std::filesystem::path file = asset(style, key, written);
-        return placed(key, [&] { return read(file); });
+        return placed(style, key, [&] { return read(file); });
     };
     if (style.host.scalp_mesh.empty())
         throw fail("{}: scalp.mesh must name an OBJ",
                    style.places.contains("scalp.mesh") ? style.places.at("scalp.mesh") : style.name());
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
-        placed("interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
+        placed(style, "interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
     if (const auto& rest = style.host.groom_rest.shapes;
         rest && size_t(rest->strands()) != assets.scalp.positions.size())
-        placed("groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
+        placed(style, "groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
             for (size_t i = 0; i < with_list(
                                        style.host, info, [](const auto& list) { return list.size(); });
                  ++i)
-                placed(fmt::format("{}[{}]", info.group, i), [&] { check_entry(style.host, info, i, assets.scalp); });
+                placed(style, fmt::format("{}[{}]", info.group, i),
+                       [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh,
                            [&](const std::filesystem::path& file)
@@ -129,6 +131,38 @@ std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets
     return all;
 }
 
+TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedGrid& grid)
+{
+    std::vector<Collider> spheres = all_colliders(style, assets, grid.grid != nullptr);
+    spheres.resize(spheres.size() - style.host.colliders.size()); // the style's own may come and go
+    return {grid, spheres};
+}
+
+Groom grown(const Hairstyle& style, Assets& assets)
+{
+    Groom groom = grow(style.params, assets.scalp, style.host);
+    const std::vector<Tie>& ties = style.host.ties;
+    if (ties.empty())
+        return groom;
+    const TieGround ground = tie_ground(style, assets, head_grid(style, assets));
+    const TieRoots roots = tie_roots(groom, style.params, style.host, assets.scalp);
+    for (size_t i = 0; i < ties.size(); ++i)
+        placed(style, fmt::format("tie[{}]", i), [&] { check_tie(groom, style.params, ties, i, roots, ground); });
+    tie_hair(groom, style.params, assets.scalp, ties, roots, ground);
+    return groom;
+}
+
+std::string doubtful_ties(const Hairstyle& style, const Groom& groom)
+{
+    std::string said;
+    for (size_t i = 0; i < groom.short_of_ring.size(); ++i)
+        if (groom.short_of_ring[i] > 0)
+            said +=
+                fmt::format("{}tie '{}': {} simulated strands are too short to come through its ring and hang loose",
+                            said.empty() ? "" : "; ", style.host.ties[i].name, groom.short_of_ring[i]);
+    return said;
+}
+
 static bool same_group(const char* group, const Hairstyle& a, const Hairstyle& b)
 {
     return std::ranges::all_of(param_table(), [&](const ParamInfo& info)
@@ -148,7 +182,7 @@ Simulation::Simulation(const Device& device, Hairstyle style) : device_(device),
 {
     assets_ = load_assets(authored_);
     style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
-    solver_ = std::make_unique<Solver>(device_, style_.params, grow(style_.params, assets_.scalp, style_.host), hand_);
+    solver_ = std::make_unique<Solver>(device_, style_.params, grown(style_, assets_), hand_);
     set_bodies(style_);
     drape();
 }
@@ -236,10 +270,12 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         regrow |= !same_value(style, style_, info) && ((info.effect != Effect::LIVE && info.effect != Effect::VIEW) ||
                                                        (varied && info.scope == Scope::STRAND));
     regrow |= grown_otherwise(style, style_);
+    // Held hair is laid in segments of the length that spacing gives them.
+    regrow |= !style.host.ties.empty() && style.params.strand_spacing != style_.params.strand_spacing;
     bool refall = false;
     if (regrow)
     {
-        Groom groom = grow(style.params, meshes ? fresh.scalp : assets_.scalp, style.host);
+        Groom groom = grown(style, meshes ? fresh : assets_);
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
@@ -248,8 +284,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
                  (held && style.params.solver_kind == 0 && !stored);
         if (!refall && groom.rest_position.empty())
         {
-            groom.rest_position = old.rest_position;
-            groom.rest_multiplier = old.rest_multiplier;
+            keep_rest(groom, old);
         }
         solver_->set_groom(groom);
     }

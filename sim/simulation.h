@@ -4,6 +4,7 @@
 #include "sim/mesh.h"
 #include "sim/quality.h"
 #include "sim/solver.h"
+#include "sim/tied_hair.h"
 
 #include <memory>
 #include <optional>
@@ -36,6 +37,16 @@ std::string doubtful_size(const HairParams& params, const Assets& assets);
 // The head's own spheres, scaled and offset as the style says, unless its grid stands for it; followed by the style's
 // colliders.
 std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets, bool grid);
+
+// The head that hair is tied over: its grid as head_grid() has it, or else its spheres.
+TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedGrid& grid);
+
+// The style's hair, grown on its scalp and tied. Throws Error as grow() and tie_hair().
+Groom grown(const Hairstyle& style, Assets& assets);
+
+// Strands of ties that are too short to come through their rings, as "tie 'left': 12 of its 90 guides ..."; empty if
+// none is.
+std::string doubtful_ties(const Hairstyle& style, const Groom& groom);
 
 // A hairstyle that lives: assets, groom and solver, and the time that runs in fixed steps whatever the frame rate.
 class Simulation

@@ -3,6 +3,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <tuple>
 
@@ -101,6 +102,12 @@ void Solver::set_groom(const Groom& groom)
         fresh["resets"] = allocate(device_, strands * sizeof(int), "the guides");
         device_.queue.enqueueFillBuffer(fresh["resets"], 0, 0, strands * sizeof(int));
     }
+    if (!groom.held.empty() && (!same || groom_.held.empty()))
+        fresh["held_nodes"] = allocate(device_, strands * sizeof(int), "the guides");
+    if (groom.tied.size() != groom_.tied.size() || !fresh.contains("tied"))
+        fresh["tied"] = allocate(device_, std::max<size_t>(groom.tied.size(), 1) * sizeof(TiedStrand), "the ties");
+    if (groom.tails.size() != groom_.tails.size() || !fresh.contains("tails"))
+        fresh["tails"] = allocate(device_, std::max<size_t>(groom.tails.size(), 1) * sizeof(Tail), "the ties");
     if (!same_drawn)
     {
         fresh["strands"] = allocate(device_, groom.drawn.size() * sizeof(DrawnStrand), "the drawn strands");
@@ -120,6 +127,10 @@ void Solver::set_groom(const Groom& groom)
     write(device_, buffer("root_direction"), groom.root_direction);
     write(device_, buffer("segment_length"), groom.segment_length);
     write(device_, buffer("strands"), groom.drawn);
+    if (!groom.held.empty())
+        write(device_, buffer("held_nodes"), groom.held);
+    write(device_, buffer("tied"), groom.tied);
+    write(device_, buffer("tails"), groom.tails);
     set_rest_shape();
     if (!same)
         reset(head_);

@@ -131,8 +131,9 @@ void Solver::simulate(const StepInfo& info)
     if (params_.solver_kind == 0)
         return simulate_direct(info);
     launch_strands("simulate_pbd",
-                   fmt::format("{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
-                               density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : ""),
+                   fmt::format("{}{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                               density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : "",
+                               groom_.held.empty() ? "" : "-D HELD "),
                    size_t(groom_.blocks) * LANES);
 }
 
@@ -172,10 +173,11 @@ void Solver::simulate_direct(const StepInfo& info)
     if (stands_rigid(info))
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
     launch_strands("simulate_direct",
-                   fmt::format("{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
+                   fmt::format("{}{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
                                bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
                                repels ? "-D REPULSION " : "", contact ? "-D CONTACT " : "",
-                               body_.grid ? "-D BODY_GRID " : "", density ? "-D DENSITY " : ""),
+                               body_.grid ? "-D BODY_GRID " : "", density ? "-D DENSITY " : "",
+                               groom_.held.empty() ? "" : "-D HELD "),
                    size_t(groom_.blocks) * LANES);
     std::swap(buffers_["tension"], buffers_["tension_next"]);
     std::swap(buffers_["pace"], buffers_["pace_next"]);
@@ -277,6 +279,8 @@ void Solver::draw()
         fmt::format("{}{}{}{}", has_shadow() ? "-D SHADOW " : "", body_.grid ? "-D BODY_GRID " : "",
                     groom_.looks.empty() ? "" : "-D VARIED ",
                     params_.flyaway_share > 0.0f && params_.flyaway_distance > 0.0f ? "-D FLYAWAY " : "");
+    const bool braids = std::any_of(groom_.tails.begin(), groom_.tails.end(), [](auto& t) { return t.axis.w > 0.0f; });
+    const std::string braided = braids ? "-D BRAIDED " : "";
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
@@ -291,13 +295,14 @@ void Solver::draw()
                                 cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
         launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
     }
-    launch_strands("interpolate_multi", options, size_t(groom_.drawn_multi));
+    launch_strands("interpolate_multi", options + (groom_.tied.empty() ? "" : "-D TIED " + braided),
+                   size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
     if (has_clumps(params_))
         launch_strands("clump",
                        fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "),
                        groom_.drawn.size());
-    launch_strands("transport_frames", has_clumps(params_) ? "-D CLUMPS " : "", groom_.drawn.size());
+    launch_strands("transport_frames", braided + (has_clumps(params_) ? "-D CLUMPS " : ""), groom_.drawn.size());
 }
 
 double sum_of(const PassTimes& times)

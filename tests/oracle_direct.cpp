@@ -180,7 +180,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
 {
     bool touched = false;
     const double rest = strand.rest;
-    for (int k = 2; k < strand.n; ++k)
+    for (int k = strand.held; k < strand.n; ++k)
     {
         const Vec parent = x[size_t(k - 1)];
         Vec d = x[size_t(k)] - parent;
@@ -224,9 +224,9 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
 
 // Returns whether the forces were numbers.
 static bool substep(Strand& strand, const DirectStep& step, const Place& last, const Place& now, double h, Drag drag,
-                    double gain_steady, Vec root, Vec direction, Vec normal, const std::vector<Vec>& rest_bend,
-                    const std::vector<Vec>& wind, const std::vector<Vec>& push, std::vector<double>& inside,
-                    const Rounder& round)
+                    double gain_steady, Vec root, Vec direction, Vec normal, const Vec* at_rest,
+                    const std::vector<Vec>& rest_bend, const std::vector<Vec>& wind, const std::vector<Vec>& push,
+                    std::vector<double>& inside, const Rounder& round)
 {
     const int n = strand.n;
     const Vec along = now.turn * direction + round(6.0);
@@ -253,12 +253,14 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
              drag.gain * (glm::length(f) + (std::abs(strand.pull[i]) + (tip ? 0.0 : std::abs(strand.pull[i + 1]))) *
                                                glm::length(a[i]))));
     }
+    for (size_t i = 2; i < size_t(strand.held); ++i)
+        move[i] = now.out(at_rest[i]) - strand.x[i] + round(6.0 * (glm::length(at_rest[i]) + glm::length(now.origin)));
     if (step.bending)
         bend(strand, step, rest_bend, along, now.turn * normal, h, drag.gain, gain_steady, move, round);
     else
         move.back() /= step.tip_mass;
     if (step.on_grid || !step.bodies.empty())
-        for (size_t i = 2; i < size_t(n); ++i)
+        for (size_t i = size_t(strand.held); i < size_t(n); ++i)
         {
             inside[i] = std::max(inside[i] - double(step.info.push_out) * h, 0.0);
             push_and_rub(step, last, now, strand.x[i], move[i], inside[i], round);
@@ -271,7 +273,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     for (int newton = 0; newton < 3 && residual >= kTolerance; ++newton)
     {
         shake(strand, a, move, h * drag.gain, step.tip_mass, round);
-        residual = worst_residual(a, move, strand.rest);
+        residual = worst_residual(strand, a, move);
     }
     if (residual >= 4.0 * kTolerance)
     {
@@ -289,8 +291,8 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     }
     for (size_t i = 0; i < size_t(n); ++i)
     {
-        strand.v[i] =
-            (move[1] + (i > 1 ? kept : 1.0) * (move[i] - move[1])) / h + round(2.0 * glm::length(move[i]) / h);
+        strand.v[i] = (move[1] + (int(i) >= strand.held ? kept : 1.0) * (move[i] - move[1])) / h +
+                      round(2.0 * glm::length(move[i]) / h);
         strand.x[i] += move[i] + round(glm::length(strand.x[i]) + glm::length(move[i]));
     }
     return sound;
@@ -327,7 +329,8 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
     for (int s = 0; s < strands.count(); ++s)
     {
         const size_t first = size_t(s * n);
-        Strand strand{n, strands.segment_length[size_t(s)] * step.params.strand_spacing, {}, {}, {}};
+        const int held = strands.held.empty() ? 2 : strands.held[size_t(s)];
+        Strand strand{n, held, strands.segment_length[size_t(s)] * step.params.strand_spacing, {}, {}, {}};
         int fault = 0;
         for (size_t i = first; i < first + size_t(n); ++i)
         {
@@ -368,12 +371,12 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         for (int i = 0; i < substeps; ++i)
         {
             const double h_before = i > 0 ? h : before > 0 ? std::ldexp(step.seconds_before, 1 - before) : 0.0;
-            lost |=
-                !substep(strand, step, place_at(step, double(i) / substeps), place_at(step, double(i + 1) / substeps),
-                         h, drag_over(b, h_before, h), steady, strands.root_position[size_t(s)],
-                         strands.root_direction[size_t(s)], strands.root_normal[size_t(s)],
-                         {strands.rest_bend.begin() + long(first), strands.rest_bend.begin() + long(first) + n}, wind,
-                         push, inside, round);
+            lost |= !substep(strand, step, place_at(step, double(i) / substeps),
+                             place_at(step, double(i + 1) / substeps), h, drag_over(b, h_before, h), steady,
+                             strands.root_position[size_t(s)], strands.root_direction[size_t(s)],
+                             strands.root_normal[size_t(s)], &strands.rest_position[first],
+                             {strands.rest_bend.begin() + long(first), strands.rest_bend.begin() + long(first) + n},
+                             wind, push, inside, round);
             for (const double pull : strand.pull)
                 tensest = std::max(tensest, std::abs(pull));
         }

@@ -49,7 +49,10 @@ template <typename T> static std::vector<T> solved(Matrix a, std::vector<T> righ
 // ---- bending and lengths
 
 double mass(int node, int nodes, double tip_mass) { return node == nodes - 1 ? tip_mass : 1.0; }
-double mobility(int node, int nodes, double tip_mass) { return node < 2 ? 0.0 : 1.0 / mass(node, nodes, tip_mass); }
+double mobility(int node, const Strand& strand, double tip_mass)
+{
+    return node < strand.held ? 0.0 : 1.0 / mass(node, strand.n, tip_mass);
+}
 
 static Vec some_normal(Vec t)
 {
@@ -153,8 +156,10 @@ void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& 
     const int n = strand.n;
     const double k = std::min(stiffness_of(step.params, n, strand.rest), double(step.info.bend_most));
     std::vector<Vec> x = strand.x;
+    const int held = strand.held;
     x[0] += move[0];
-    x[1] += move[1] + round(2.0 * glm::length(x[1]));
+    for (size_t i = 1; i < size_t(held); ++i)
+        x[i] += move[i] + round(2.0 * glm::length(x[i]));
     for (size_t i = 2; i < size_t(n); ++i)
         x[i] += round(6.0 * strand.rest);
     Matrix d = zeros(n, n); // second differences of all nodes
@@ -163,37 +168,38 @@ void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& 
     {
         d[size_t(e)][size_t(e - 1)] = d[size_t(e)][size_t(e + 1)] = 1.0;
         d[size_t(e)][size_t(e)] = -2.0;
-        w[size_t(e)] = (e == 1 ? 2.0 : 1.0) *
+        w[size_t(e)] = (e == held - 1 ? 2.0 : 1.0) *
                        std::exp(-double(step.params.bending_attenuation) * (e - 1) / double(n - 2)) *
                        oracle::profile_at(step.params.bending_along, (e - 1) / double(n - 2));
     }
     const std::vector<Vec> slope =
         bending_slope(x, w, strand.rest, step.curled, rest_bend, along, glm::normalize(normal + round(8.0)), round);
-    Matrix a = zeros(n - 2, n - 2);
-    std::vector<Vec> right(size_t(n - 2));
-    for (int i = 2; i < n; ++i)
+    Matrix a = zeros(n - held, n - held);
+    std::vector<Vec> right(size_t(n - held));
+    for (int i = held; i < n; ++i)
     {
-        right[size_t(i - 2)] = move[size_t(i)] - h * gain_now * k * slope[size_t(i)];
-        right[size_t(i - 2)] +=
+        right[size_t(i - held)] = move[size_t(i)] - h * gain_now * k * slope[size_t(i)];
+        right[size_t(i - held)] +=
             round(4.0 * (glm::length(move[size_t(i)]) + h * gain_now * k * glm::length(slope[size_t(i)])));
-        a[size_t(i - 2)][size_t(i - 2)] = mass(i, n, step.tip_mass);
+        a[size_t(i - held)][size_t(i - held)] = mass(i, n, step.tip_mass);
         for (int e = 1; e + 1 < n; ++e)
-            for (int j = 2; j < n; ++j)
+            for (int j = held; j < n; ++j)
             {
                 const double entry =
                     h * gain_steady * k * w[size_t(e)] * d[size_t(e)][size_t(i)] * d[size_t(e)][size_t(j)];
-                a[size_t(i - 2)][size_t(j - 2)] += entry + round.one(8.0 * entry);
+                a[size_t(i - held)][size_t(j - held)] += entry + round.one(8.0 * entry);
             }
     }
     const std::vector<Vec> solution = solved(a, right);
-    for (int i = 2; i < n; ++i)
-        move[size_t(i)] = solution[size_t(i - 2)] + round(4.0 * glm::length(solution[size_t(i - 2)]));
+    for (int i = held; i < n; ++i)
+        move[size_t(i)] = solution[size_t(i - held)] + round(4.0 * glm::length(solution[size_t(i - held)]));
 }
 
-double worst_residual(const std::vector<Vec>& a, const std::vector<Vec>& move, double rest)
+double worst_residual(const Strand& strand, const std::vector<Vec>& a, const std::vector<Vec>& move)
 {
+    const double rest = strand.rest;
     double worst = 0.0;
-    for (size_t k = 2; k < move.size(); ++k)
+    for (size_t k = size_t(strand.held); k < move.size(); ++k)
     {
         const Vec d = a[k] + move[k] - move[k - 1];
         const double off = std::abs(glm::dot(d, d) / (rest * rest) - 1.0);
@@ -205,13 +211,13 @@ double worst_residual(const std::vector<Vec>& a, const std::vector<Vec>& move, d
 void shake(Strand& strand, const std::vector<Vec>& a, std::vector<Vec>& move, double hg, double tip_mass,
            const Rounder& round)
 {
-    const int n = strand.n, links = n - 2;
+    const int n = strand.n, held = strand.held, links = n - held;
     const double rest = strand.rest;
     Matrix jacobian = zeros(links, links);
     std::vector<double> excess(size_t(links), 0.0);
-    for (int k = 2; k < n; ++k)
+    for (int k = held; k < n; ++k)
     {
-        const size_t row = size_t(k - 2);
+        const size_t row = size_t(k - held);
         const Vec d = a[size_t(k)] + move[size_t(k)] - move[size_t(k - 1)];
         const double parts =
             glm::length(a[size_t(k)]) + glm::length(move[size_t(k)]) + glm::length(move[size_t(k - 1)]);
@@ -221,25 +227,25 @@ void shake(Strand& strand, const std::vector<Vec>& a, std::vector<Vec>& move, do
         const auto entry = [&](int j, double weight)
         {
             const double product = weight * glm::dot(d, a[size_t(j)]);
-            jacobian[row][size_t(j - 2)] =
+            jacobian[row][size_t(j - held)] =
                 product + round.one(6.0 * weight * glm::length(d) * glm::length(a[size_t(j)]));
         };
-        const double before = mobility(k - 1, n, tip_mass), own = mobility(k, n, tip_mass);
-        if (k > 2)
+        const double before = mobility(k - 1, strand, tip_mass), own = mobility(k, strand, tip_mass);
+        if (k > held)
             entry(k - 1, -before);
         entry(k, before + own);
         if (k + 1 < n)
             entry(k + 1, -own);
     }
     const std::vector<double> lambda = solved(jacobian, excess);
-    for (int k = 2; k < n; ++k)
+    for (int k = held; k < n; ++k)
     {
-        const Vec forth = k + 1 < n ? lambda[size_t(k - 1)] * a[size_t(k + 1)] : Vec(0.0);
-        const Vec back = lambda[size_t(k - 2)] * a[size_t(k)];
-        move[size_t(k)] += mobility(k, n, tip_mass) * (forth - back) +
+        const Vec forth = k + 1 < n ? lambda[size_t(k + 1 - held)] * a[size_t(k + 1)] : Vec(0.0);
+        const Vec back = lambda[size_t(k - held)] * a[size_t(k)];
+        move[size_t(k)] += mobility(k, strand, tip_mass) * (forth - back) +
                            round(3.0 * (glm::length(forth) + glm::length(back)) + glm::length(move[size_t(k)]));
-        strand.pull[size_t(k)] +=
-            lambda[size_t(k - 2)] / hg + round.one(3.0 * std::abs(lambda[size_t(k - 2)] / hg) + strand.pull[size_t(k)]);
+        strand.pull[size_t(k)] += lambda[size_t(k - held)] / hg +
+                                  round.one(3.0 * std::abs(lambda[size_t(k - held)] / hg) + strand.pull[size_t(k)]);
     }
 }
 
@@ -249,7 +255,7 @@ bool rescue(Strand& strand, std::vector<Vec>& move, double tip_mass, double& kep
     const auto energy = [&]
     {
         double sum = 0.0;
-        for (int k = 2; k < n; ++k)
+        for (int k = strand.held; k < n; ++k)
             sum += (k + 1 < n ? 1.0 : tip_mass) * glm::dot(move[size_t(k)] - move[1], move[size_t(k)] - move[1]);
         return sum;
     };
@@ -259,7 +265,7 @@ bool rescue(Strand& strand, std::vector<Vec>& move, double tip_mass, double& kep
         q.push_back(strand.x[size_t(k)] + move[size_t(k)]);
     const Vec along = q[1] - q[0];
     bool sound = true;
-    for (int k = 2; k < n; ++k)
+    for (int k = strand.held; k < n; ++k)
     {
         const double most = 2.0 * (k - 1) * strand.rest, is = glm::length(q[size_t(k)] - q[1]);
         sound &= is < 1e15;
@@ -272,14 +278,16 @@ bool rescue(Strand& strand, std::vector<Vec>& move, double tip_mass, double& kep
     for (int half = 0; half < 16; ++half)
         for (int k = 2 + half % 2; k < n; k += 2)
         {
+            if (k < strand.held)
+                continue;
             const Vec d = q[size_t(k)] - q[size_t(k - 1)];
-            const double is = glm::length(d), before = k > 2 ? 1.0 : 0.0;
+            const double is = glm::length(d), before = k > strand.held ? 1.0 : 0.0;
             const Vec correction =
                 is > 1e-6 * strand.rest ? 1.8 * (1.0 - strand.rest / is) / (1.0 + before) * d : Vec(0.0);
             q[size_t(k)] -= correction + round(4.0 * glm::length(q[size_t(k)]));
             q[size_t(k - 1)] += before * correction;
         }
-    for (int k = 2; k < n; ++k)
+    for (int k = strand.held; k < n; ++k)
     {
         const Vec d = q[size_t(k)] - q[size_t(k - 1)];
         const double is = glm::length(d);

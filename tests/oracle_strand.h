@@ -16,6 +16,7 @@ struct Rounder
 struct Strand
 {
     int n;
+    int held; // nodes that are prescribed
     double rest;
     std::vector<Vec> x, v;
     std::vector<double> pull; // of the segment that ends at the node
@@ -23,14 +24,14 @@ struct Strand
 
 // Of a node against the others; 1 over it, and 0 where it is prescribed.
 double mass(int node, int nodes, double tip_mass);
-double mobility(int node, int nodes, double tip_mass);
+double mobility(int node, const Strand& strand, double tip_mass);
 
 // The implicit bending step, added to the momentum in `move`, which holds the moves of the prescribed nodes.
 void bend(const Strand& strand, const DirectStep& step, const std::vector<Vec>& rest_bend, Vec along, Vec normal,
           double h, double gain_now, double gain_steady, std::vector<Vec>& move, const Rounder& round);
 
 // The largest of | |d|^2 / l^2 - 1 |; infinite where it is no number.
-double worst_residual(const std::vector<Vec>& a, const std::vector<Vec>& move, double rest);
+double worst_residual(const Strand& strand, const std::vector<Vec>& a, const std::vector<Vec>& move);
 
 // A round of Newton's method for |a + change| = l with corrections along a (SHAKE, Ryckaert et al. 1977).
 void shake(Strand& strand, const std::vector<Vec>& a, std::vector<Vec>& move, double hg, double tip_mass,

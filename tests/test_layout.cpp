@@ -38,6 +38,10 @@ struct Field
 #define CAPSULE_FIELDS(X) X(center) X(axis)
 #define LOOK_FIELDS(X) X(root_color) X(tip_color) X(wave) X(own)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed) X(leader)
+#define TIED_FIELDS(X) X(place) X(ring) X(tail) X(unused0) X(unused1)
+#define TAIL_FIELDS(X)                                                                                                 \
+    X(axis) X(side) X(depth) X(plait) X(bound) X(length) X(ring) X(radius) X(fullest) X(together) X(guide) X(unused0)  \
+    X(unused1) X(unused2)
 // clang-format on
 
 std::vector<Field> fields_of_params()
@@ -57,11 +61,15 @@ std::vector<Field> all_fields()
 #define PATH_FIELD(name) fields.push_back({"StepPath", #name, int(offsetof(StepPath, name))});
 #define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
 #define LOOK_FIELD(name) fields.push_back({"StrandLook", #name, int(offsetof(StrandLook, name))});
+#define TIED_FIELD(name) fields.push_back({"TiedStrand", #name, int(offsetof(TiedStrand, name))});
+#define TAIL_FIELD(name) fields.push_back({"Tail", #name, int(offsetof(Tail, name))});
     STEP_FIELDS(STEP_FIELD)
     PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
     CAPSULE_FIELDS(CAPSULE_FIELD)
     LOOK_FIELDS(LOOK_FIELD)
+    TIED_FIELDS(TIED_FIELD)
+    TAIL_FIELDS(TAIL_FIELD)
     return fields;
 }
 
@@ -84,7 +92,7 @@ std::vector<std::string> members_in_text(const std::string& text, const std::str
 TEST(Layout, TheTestKnowsEveryFieldOfTheStructs)
 {
     const std::string text = read_file(data_folder() / "kernels" / "shared.h");
-    for (const std::string type : {"StepInfo", "StepPath", "DrawnStrand", "Capsule"})
+    for (const std::string type : {"StepInfo", "StepPath", "DrawnStrand", "Capsule", "TiedStrand", "Tail"})
     {
         std::vector<std::string> known;
         for (const Field& field : all_fields())
@@ -102,7 +110,8 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule", "StrandLook"})
+    for (const char* type :
+         {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule", "TiedStrand", "Tail", "StrandLook"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -114,14 +123,15 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
                                             "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n"
-                                            "    Capsule Capsule_;\n    StrandLook StrandLook_;\n" +
+                                            "    Capsule Capsule_;\n    TiedStrand TiedStrand_;\n    Tail Tail_;\n"
+                                            "    StrandLook StrandLook_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 6, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 8, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 6);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 8);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
@@ -130,7 +140,9 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     EXPECT_EQ(offset[fields.size() + 2], int(sizeof(StepPath)));
     EXPECT_EQ(offset[fields.size() + 3], int(sizeof(DrawnStrand)));
     EXPECT_EQ(offset[fields.size() + 4], int(sizeof(Capsule)));
-    EXPECT_EQ(offset[fields.size() + 5], int(sizeof(StrandLook)));
+    EXPECT_EQ(offset[fields.size() + 5], int(sizeof(TiedStrand)));
+    EXPECT_EQ(offset[fields.size() + 6], int(sizeof(Tail)));
+    EXPECT_EQ(offset[fields.size() + 7], int(sizeof(StrandLook)));
 }
 
 // A program whose only purpose is to make a uniform block active.

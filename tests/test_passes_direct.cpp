@@ -28,6 +28,7 @@ struct Case
     double seconds_before = 1.0 / 60.0;
     double turning_rate = 0.0, bend_most = 1e30;
     bool grid = false; // stands for the head, with contact
+    bool held = false; // some strands are held by more nodes than the root's two, as ties do
     bool density() const { return repulsion; }
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -42,6 +43,8 @@ class DirectPass : public testing::TestWithParam<Case>
         params = pass_params(c.nodes, 20, c.wind, c.repulsion, c.change);
         groom = random_groom(random, c.strands, c.nodes, 10);
 
+        for (int s = 0; s < groom.blocks * LANES && c.held; ++s)
+            groom.held.push_back(s % 3 || s >= c.strands ? 2 : 2 + s / 3 % (c.nodes - 4));
         step.bending = c.bending;
         step.curled = c.curled;
         step.wind = c.wind;
@@ -89,6 +92,8 @@ class DirectPass : public testing::TestWithParam<Case>
         state.nodes = c.nodes;
         state.root_position = from_blocks(groom.root_position, c.strands, 1);
         state.root_direction = from_blocks(groom.root_direction, c.strands, 1);
+        if (c.held)
+            state.held.assign(groom.held.begin(), groom.held.begin() + c.strands);
         state.resets.assign(size_t(c.strands), 0);
         state.faults.assign(size_t(c.strands), 0);
         for (int block = 0; block < groom.blocks; ++block)
@@ -121,6 +126,10 @@ class DirectPass : public testing::TestWithParam<Case>
                     along = glm::normalize(along + 0.7 * calm * random.vector(1.0));
                 if (k > 0)
                     shape = glm::normalize(shape + 0.3 * random.vector(1.0));
+                if (k < held_nodes(groom, s))
+                    state.multiplier.back() = 0.0;
+                if (k > 0 && k + 1 < held_nodes(groom, s))
+                    along = step.before.turn * shape;
                 at += rest * along;
                 at_rest += rest * shape;
                 v += 0.2 * calm * wild * rest / double(step.now.seconds) * random.vector(1.0);
@@ -163,6 +172,8 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"rest_bend", points(state.rest_bend)},
                 {"root_position", filled(device, groom.root_position)},
                 {"root_direction", filled(device, groom.root_direction)},
+                {"held_nodes", filled(device, groom.held.empty() ? std::vector<int>(1) : groom.held)},
+                {"bend_factor", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 1.0f))},
                 {"root_normal", filled(device, to_blocks(state.root_normal, c.strands, 1))},
                 {"segment_length", filled(device, groom.segment_length)},
                 {"multiplier", filled(device, scalars_to_blocks(state.multiplier, c.nodes))},
@@ -188,9 +199,9 @@ class DirectPass : public testing::TestWithParam<Case>
         const Device device = with_width(width);
         const Buffers on_device = buffers(device);
         const std::string features =
-            fmt::format("{}{}{}{}{}{}{}", c.bending ? "-D BENDING " : "", c.curled ? "-D CURLED " : "",
+            fmt::format("{}{}{}{}{}{}{}{}", c.bending ? "-D BENDING " : "", c.curled ? "-D CURLED " : "",
                         c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "", c.contact ? "-D CONTACT " : "",
-                        c.grid ? "-D BODY_GRID " : "", c.density() ? "-D DENSITY " : "");
+                        c.grid ? "-D BODY_GRID " : "", c.density() ? "-D DENSITY " : "", c.held ? "-D HELD " : "");
         Kernel kernel = load_kernel(device, "simulate_direct", pass_options(device, c.nodes, 20, features));
         run(device, kernel, on_device, cl::NDRange(size_t(groom.blocks) * 16 / size_t(width)));
         return on_device;
@@ -355,7 +366,7 @@ TEST_P(DirectPass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)
         {"position, infinite", FAULT_POSITION, [&](size_t i) { state.position[i].x = INFINITY; }},
         {"velocity", FAULT_VELOCITY, [&](size_t i) { state.velocity[i + size_t(c.nodes) - 1].z = -INFINITY; }},
         {"multiplier", FAULT_VELOCITY, [&](size_t i) { state.multiplier[i + 2] = NAN; }},
-        {"forces", FAULT_FORCES, [&](size_t i) { state.rest_bend[i + 1].y = NAN; }},
+        {"forces", FAULT_FORCES, [&](size_t i) { state.rest_bend[i + size_t(held_nodes(groom, bad)) - 1].y = NAN; }},
     };
     for (const auto& ill : ills)
     {
@@ -424,6 +435,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"on_a_grid_8_wide", 8, 9, 230, true, false, false, false, true, false, curls, 1.0 / 60.0, 0.0, 1e30, true},
         Case{"on_a_grid_1_wide", 1, 16, 101, true, true, false, false, true, true, nullptr, 1.0 / 60.0, 0.0, 1e30,
              true},
+        Case{"held", 16, 16, 235, true, true, true, true, true, false, curls, 1.0 / 60.0, 0.0, 1e30, true, true},
+        Case{"held_8_wide", 8, 12, 230, true, false, false, false, true, false, curls, 1.0 / 120.0, 0.0, 1e30, false,
+             true},
+        Case{"held_1_wide", 1, 16, 101, true, true, true, false, true, false, nullptr, 1.0 / 60.0, 0.0, 1e30, true,
+             true},
+        Case{"held_without_bending", 16, 9, 101, false, false, false, false, false, true, calm, 1.0 / 60.0, 0.0, 1e30,
+             false, true},
         Case{"a_leap", 16, 16, 101, true, true, true, true, true, true, curls, 1.0 / 60.0, 300.0, 2e5},
         Case{"nothing_but_gravity", 16, 16, 480, false, false, false, false, false, false, calm},
         Case{"straight_hair_of_a_material", 16, 16, 475, true, false, false, false, false, false, material},

@@ -57,6 +57,18 @@ inline void add_entry(std::vector<ScalpMap>& list, std::mt19937& random)
     list.push_back(map);
 }
 
+inline void add_entry(std::vector<Tie>& list, std::mt19937& random)
+{
+    Tie tie;
+    tie.name = random() % 2 ? "tail" : "";
+    tie.at = {0.01f * float(random() % 9), 0.125f, -0.1f};
+    tie.axis = {0.0f, -0.5f, 1.0f + float(random() % 3)};
+    tie.radius = 0.01f + 0.001f * float(random() % 9);
+    tie.color = {0.25f, float(random() % 256) / 255.0f, 1.0f};
+    tie.braid = random() % 2;
+    list.push_back(tie);
+}
+
 inline void add_entry(Hairstyle& style, const ParamInfo& info, std::mt19937& random)
 {
     with_list(style.host, info, [&](auto& list) { add_entry(list, random); });
