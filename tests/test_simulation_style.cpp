@@ -24,7 +24,7 @@ Hairstyle busy_style()
     for (const char* set : {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "grid.blur=0.05",
                             "forces.wind=[3, 0, 1]", "forces.repulsion=1", "wave.normal_amplitude=0.01",
                             "wave.binormal_amplitude=0.008", "interpolation.layer=0.01", "curl.radius=0.005",
-                            "frizz.amount=0.002", "flyaway.share=0.2", "clump.strength=0.5", "clump.size=0.15"})
+                            "frizz.amount=0.002", "flyaway.share=0.2", "clump.strength=0.5", "clump.size=0.06"})
         assign(style, set);
     return style;
 }
