@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace coif
 {
@@ -55,7 +56,10 @@ static ScalpMap& painted_map(Hairstyle& style, const char* of, const Scalp& scal
 
 static bool painted(const ScalpMap& map)
 {
-    return std::ranges::any_of(map.values, [&](float v) { return v != (map.how == MAP_FACTOR ? 1.0f : 0.0f); });
+    for (size_t i = 0; i < map.values.size(); ++i)
+        if ((map.how != MAP_OVER || i % 4 == 3) && map.values[i] != (map.how == MAP_FACTOR ? 1.0f : 0.0f))
+            return true;
+    return false;
 }
 
 // Moves a number, as it is at each vertex, towards `aim`.
@@ -153,57 +157,100 @@ static bool erase(Hairstyle& style, const std::vector<float>& weights)
     return changed;
 }
 
-// Turns each strand about its root's normal so that it goes where the brush goes, its outer nodes less than its root.
+// The style's rest shape, or else the shapes that it rests in now; none where they are of another scalp.
+static std::optional<StrandShapes> rest_of(const Hairstyle& style, const Scalp& scalp, const StrandShapes& now)
+{
+    const auto& own = style.host.groom_rest.shapes;
+    if (own && size_t(own->strands()) == scalp.positions.size())
+        return *own;
+    if (size_t(now.strands()) == scalp.positions.size())
+        return now;
+    return std::nullopt;
+}
+
+static void keep_rest(Hairstyle& style, StrandShapes shapes)
+{
+    style.host.groom_rest = {style.host.groom_rest.file, std::make_shared<const StrandShapes>(std::move(shapes))};
+}
+
+// Gives a strand's segments other directions, by number from the root and as they are.
+template <typename Turn> static void turn_segments(glm::vec3* p, size_t nodes, Turn turn)
+{
+    std::vector<glm::vec3> segments;
+    for (size_t k = 1; k < nodes; ++k)
+        segments.push_back(turn(k - 1, p[k] - p[k - 1]));
+    p[0] = p[1] - segments[0];
+    for (size_t k = 2; k < nodes; ++k)
+        p[k] = p[k - 1] + segments[k - 1];
+}
+
+// Outer nodes turn less than roots.
+static float fade_along(size_t segment, size_t nodes) { return 1.0f - 0.6f * float(segment) / float(nodes); }
+
+// Turns each strand about its root's normal so that it goes where the brush goes.
 static bool comb(Hairstyle& style, const Scalp& scalp, const StrandShapes& rest, const std::vector<float>& weights,
                  glm::vec3 along)
 {
     const float way = glm::length(along);
-    if (!(way > 1e-5f))
+    std::optional<StrandShapes> shapes = rest_of(style, scalp, rest);
+    if (!(way > 1e-5f) || !shapes)
         return false;
-    const bool stored = style.host.groom_rest.shapes &&
-                        size_t(style.host.groom_rest.shapes->strands()) == scalp.positions.size();
-    StrandShapes shapes = stored ? *style.host.groom_rest.shapes : rest;
-    if (size_t(shapes.strands()) != scalp.positions.size())
-        return false;
+    const size_t nodes = size_t(shapes->nodes);
+    bool changed = false;
+    for (size_t v = 0; v < weights.size(); ++v)
+    {
+        const glm::vec3 n = scalp.normals[v], flat_way = along - n * glm::dot(along, n);
+        if (weights[v] <= 0.0f || !(glm::length(flat_way) > 0.1f * way))
+            continue;
+        const glm::vec3 aim = glm::normalize(flat_way);
+        // A stroke of two centimetres turns a strand all the way.
+        const float share = std::min(1.0f, weights[v] * way / 0.02f);
+        turn_segments(&shapes->position[v * nodes], nodes,
+                      [&](size_t k, glm::vec3 segment)
+                      {
+                          const glm::vec3 flat = segment - n * glm::dot(segment, n);
+                          const float size = glm::length(segment), level = glm::length(flat);
+                          if (!(size > 1e-9f))
+                              return segment;
+                          const glm::vec3 from = level > 0.05f * size ? flat / level : 0.2f * aim;
+                          const float by = share * fade_along(k, nodes);
+                          const glm::vec3 to = glm::mix(from, aim, by);
+                          if (!(glm::length(to) > 1e-6f))
+                              return segment;
+                          // Upright ones are laid over by and by; the others turn in the plane of the scalp.
+                          const float lean = std::atan2(level, glm::dot(segment, n)), laid = glm::radians(75.0f);
+                          const float leant = lean + 0.5f * by * std::max(0.0f, laid - lean);
+                          return size * (n * std::cos(leant) + glm::normalize(to) * std::sin(leant));
+                      });
+        changed = true;
+    }
+    if (changed)
+        keep_rest(style, std::move(*shapes));
+    return changed;
+}
+
+// Lifts strands that have a rest shape, as root.lift (deg) does with the others.
+static bool lift_rest(Hairstyle& style, const Scalp& scalp, const std::vector<float>& weights, float lift)
+{
+    StrandShapes shapes = *style.host.groom_rest.shapes;
     const size_t nodes = size_t(shapes.nodes);
     bool changed = false;
     for (size_t v = 0; v < weights.size(); ++v)
     {
-        if (weights[v] <= 0.0f)
-            continue;
-        const glm::vec3 n = scalp.normals[v];
         glm::vec3* p = &shapes.position[v * nodes];
-        const glm::vec3 aim = along - n * glm::dot(along, n);
-        if (!(glm::length(aim) > 0.1f * way))
+        const glm::vec3 n = scalp.normals[v], first = p[1] - p[0], flat = first - n * glm::dot(first, n);
+        if (weights[v] <= 0.0f || !(glm::length(flat) > 1e-3f * glm::length(first)))
             continue;
-        // A stroke as long as the brush is wide turns a strand all the way.
-        const float share = std::min(1.0f, weights[v] * way / 0.02f);
-        std::vector<glm::vec3> segments;
-        for (size_t k = 1; k < nodes; ++k)
-            segments.push_back(p[k] - p[k - 1]);
-        for (size_t k = 0; k < segments.size(); ++k)
-        {
-            const glm::vec3 flat = segments[k] - n * glm::dot(segments[k], n);
-            const float size = glm::length(segments[k]), level = glm::length(flat);
-            if (!(size > 1e-9f))
-                continue;
-            // Upright ones are laid over; the others turn in the plane of the scalp.
-            const glm::vec3 from = level > 0.05f * size ? flat / level : glm::normalize(aim) * 0.2f;
-            const float fade = 1.0f - 0.6f * float(k) / float(segments.size());
-            const glm::vec3 to = glm::mix(from, glm::normalize(aim), share * fade);
-            const float turned = glm::length(to);
-            const float out = glm::dot(segments[k], n) / size;
-            const float beside = std::max(std::sqrt(std::max(0.0f, 1.0f - out * out)), 0.3f * share * fade);
-            if (turned > 1e-6f)
-                segments[k] = size * glm::normalize(n * out + to / turned * beside);
-        }
-        p[0] = p[1] - segments[0];
-        for (size_t k = 2; k < nodes; ++k)
-            p[k] = p[k - 1] + segments[k - 1];
-        changed = true;
+        const float now = std::atan2(glm::length(flat), glm::dot(first, n));
+        const float by = weights[v] * (glm::radians(lift) - now);
+        const glm::vec3 axis = glm::normalize(glm::cross(n, flat));
+        turn_segments(p, nodes,
+                      [&](size_t k, glm::vec3 segment)
+                      { return glm::angleAxis(by * fade_along(k, nodes), axis) * segment; });
+        changed |= std::abs(by) > 1e-4f;
     }
     if (changed)
-        style.host.groom_rest = {style.host.groom_rest.file, std::make_shared<const StrandShapes>(std::move(shapes))};
+        keep_rest(style, std::move(shapes));
     return changed;
 }
 
@@ -230,7 +277,10 @@ bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shape
             changed |= paint_number(style, "strand.length", scalp, weights, brush.length);
             break;
         case BrushKind::LIFT:
-            changed |= paint_number(style, "root.lift", scalp, weights, brush.lift);
+            if (style.host.groom_rest.shapes && rest_of(style, scalp, {}))
+                changed |= lift_rest(style, scalp, weights, brush.lift);
+            else
+                changed |= paint_number(style, "root.lift", scalp, weights, brush.lift);
             break;
         case BrushKind::WAVE:
             changed |= paint_number(style, "wave.normal_amplitude", scalp, weights, brush.wave);

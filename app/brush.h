@@ -26,16 +26,16 @@ const char* brush_help(BrushKind kind);
 struct Brush
 {
     BrushKind kind = BrushKind::COMB;
-    float radius = 0.03f;      // m on the scalp
-    float strength = 0.5f;     // 0 to 1: share of the way to the aim that a touch goes
-    float falloff = 0.7f;      // 0: as strong to the rim, 1: fades from the centre on
-    bool mirror = false;       // on the head's other side as well
-    float length = 0.1f;       // m, that LENGTH aims at
-    float lift = 45.0f;        // deg
-    float wave = 0.005f;       // m, amplitude
-    float density = 0.0f;      // share
+    float radius = 0.03f;              // m on the scalp
+    float strength = 0.5f;             // 0 to 1: share of the way to the aim that a touch goes
+    float falloff = 0.7f;              // 0: as strong to the rim, 1: fades from the centre on
+    bool mirror = false;               // on the head's other side as well
+    float length = 0.1f;               // m, that LENGTH aims at
+    float lift = 45.0f;                // deg
+    float wave = 0.005f;               // m, amplitude
+    float density = 0.0f;              // share
     glm::vec3 color{0.8f, 0.3f, 0.2f}; // sRGB
-    int color_of = 2;          // 0 roots, 1 tips, 2 both
+    int color_of = 2;                  // 0 roots, 1 tips, 2 both
 };
 
 // One touch: a place on the scalp and how far the mouse has gone since the last, both in the head's frame, m before

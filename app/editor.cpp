@@ -293,7 +293,7 @@ void Editor::advance(double seconds)
         stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
     if (beside_.simulation)
         follow();
-    if (played && !simulation_->playing())
+    if (played && !simulation_->playing() && held_.what != Grab::BRUSH && held_.what != Grab::CUT)
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
         hand_ = simulation_->hand();
@@ -343,6 +343,7 @@ bool Editor::frame()
     view_width_ = std::max(1, width - (show_panel_ ? kPanelWidth : 0));
     view_height_ = std::max(1, height);
 
+    guarded([&] { apply_strokes(); });
     guarded([&] { measure_quality(); });
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();

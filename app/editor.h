@@ -1,4 +1,5 @@
 #pragma once
+#include "app/brush.h"
 #include "app/history.h"
 #include "app/options.h"
 #include "app/panel.h"
@@ -50,6 +51,14 @@ struct Beside
     std::map<std::string, WidgetPlace> places; // of the last frame
 };
 
+// What a brush does between press and release.
+struct Stroke
+{
+    std::optional<glm::vec3> last; // where it was, in the head's frame, m before head.scale
+    StrandShapes rest;             // of the hair when it began
+    bool changed = false;          // the style, since it was last applied
+};
+
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
 // drive it the same way as edit() does.
 class Editor
@@ -82,6 +91,8 @@ class Editor
     const StrandColors& legend() const { return legend_; }
     const Beside& beside() const { return beside_; }
     const Browser& browser() const { return browser_; }
+    Brush& brush() { return brush_; }
+    const std::map<std::string, WidgetPlace>& brush_places() const { return brush_places_; } // buttons, as last drawn
     const Hairstyle* theirs() const { return theirs_ ? &*theirs_ : nullptr; }
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
@@ -131,6 +142,18 @@ class Editor
     void browse(bool on);
     void change_preset(); // as browser_.asked says
     bool draw_thumbnail(const std::filesystem::path& file);
+    std::optional<glm::vec3> on_scalp(double x, double y) const;
+    glm::dvec3 in_world(glm::vec3 on_head) const;
+    bool press_brush(double x, double y);
+    void stroke(double x, double y, bool begins);
+    void apply_strokes();
+    void cut_along(double x0, double y0, double x1, double y1);
+    void freeze();
+    void settle_hair();
+    void draw_brushes();
+    void draw_brush_aim();
+    void draw_ring();
+    void draw_variants();
     void take_settings();
     void keep_settings();
     void reset_hair();
@@ -169,8 +192,13 @@ class Editor
     Camera camera_;
     PanelState panel_;
     Grab held_;
-    int held_left_ = 0; // pixel that the picture which is held begins at
-    Pose hand_;         // where the mouse has brought the head
+    Brush brush_;
+    Stroke stroke_;
+    bool brushing_ = false, cutting_ = false;         // the window of brushes; scissors instead of one
+    char variant_name_[64] = "";                      // for a snapshot
+    std::map<std::string, WidgetPlace> brush_places_; // of the last frame
+    int held_left_ = 0;                               // pixel that the picture which is held begins at
+    Pose hand_;                                       // where the mouse has brought the head
     PassTimes pass_ms_;
     Health health_;
     std::vector<int> resets_seen_;           // of each guide

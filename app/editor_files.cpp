@@ -185,6 +185,7 @@ void Editor::take_theirs(const Hairstyle& theirs)
         camera_.target += simulation_->solver().head().origin;
     }
     apply();
+    note_save(history_, saved_); // whatever is undone: that is on disk now
     note_edit(history_, style_, saved_, style_.name() + " was changed on disk");
     say("read " + style_.file.string() + " again");
 }

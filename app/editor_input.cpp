@@ -63,6 +63,15 @@ void Editor::handle_key(const SDL_Keysym& key)
             (style_.params.render_colors + 1) % int(param_labels(*find_param("render.colors")).size());
         apply();
         break;
+    case SDLK_s:
+        brushing_ = !brushing_;
+        break;
+    case SDLK_LEFTBRACKET:
+        brush_.radius = std::max(0.004f, brush_.radius / 1.15f);
+        break;
+    case SDLK_RIGHTBRACKET:
+        brush_.radius = std::min(0.15f, brush_.radius * 1.15f);
+        break;
     case SDLK_b:
         browse(!browser_.shown);
         break;
@@ -108,6 +117,9 @@ void Editor::handle_mouse(const SDL_Event& event)
         held_left_ = of_b ? picture_width() : 0;
         const double x = event.button.x - held_left_, y = event.button.y;
         const SDL_Keymod mod = SDL_GetModState();
+        redraw_ = kRedraw;
+        if (event.button.button == SDL_BUTTON_LEFT && !of_b && press_brush(x, y))
+            return;
         if (event.button.button == SDL_BUTTON_LEFT && event.button.clicks == 2)
             frame_head(camera_, *simulation_);
         else if (event.button.button == SDL_BUTTON_LEFT)
@@ -120,7 +132,12 @@ void Editor::handle_mouse(const SDL_Event& event)
             held_.what = event.button.button == SDL_BUTTON_RIGHT ? Grab::ORBIT : Grab::PAN;
     }
     else if (event.type == SDL_MOUSEBUTTONUP)
+    {
+        if (held_.what == Grab::CUT)
+            cut_along(held_.x, held_.y, event.button.x, event.button.y);
+        apply_strokes();
         held_.what = Grab::NONE;
+    }
     else if (event.type == SDL_MOUSEWHEEL)
         zoom(camera_, event.wheel.y);
     else if (event.type == SDL_MOUSEMOTION)
@@ -130,6 +147,8 @@ void Editor::handle_mouse(const SDL_Event& event)
             orbit(camera_, event.motion.xrel, event.motion.yrel);
         else if (held_.what == Grab::PAN)
             pan(camera_, event.motion.xrel, event.motion.yrel, view_height_);
+        else if (held_.what == Grab::BRUSH)
+            stroke(x, y, false);
         else if (held_.what == Grab::COLLIDER)
         {
             Collider& collider = style_.host.colliders.at(held_.collider);
@@ -145,7 +164,7 @@ void Editor::handle_mouse(const SDL_Event& event)
             style_.host.ties.at(held_.tie) = dragged_tie(held_, *simulation_, camera_, x, y, view_width_, view_height_);
             apply();
         }
-        else if (held_.what != Grab::NONE)
+        else if (held_.what == Grab::MOVE_HEAD || held_.what == Grab::TURN_HEAD)
             hand_ = dragged_head(held_, camera_, x, y, picture_width(), view_height_);
     }
     redraw_ = kRedraw;

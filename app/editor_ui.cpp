@@ -37,7 +37,9 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-o                open\n"
                             "b                     browse presets\n"
                             "a                     another style beside, morph\n"
-                            "v                     colours: hair, stretch, density, kind\n"
+                            "s                     shape: brushes, cut, freeze, variants\n"
+                          "[ ]                   a smaller, a larger brush\n"
+                          "v                     colours: hair, stretch, density, kind\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -73,6 +75,8 @@ void Editor::draw_ui()
         draw_browser();
     if (beside_.shown)
         draw_beside();
+    if (brushing_)
+        draw_brushes();
     if (!legend_.readings.empty())
         draw_legend();
     draw_files();
@@ -149,6 +153,11 @@ void Editor::draw_tools()
     ImGui::SameLine();
     if (ImGui::Button("Keep camera"))
         keep_view();
+    ImGui::SameLine();
+    if (ImGui::Button("Shape"))
+        brushing_ = !brushing_;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("s: brushes, scissors, freeze and variants");
     ImGui::SameLine();
     if (ImGui::Button("A/B"))
         beside_.shown = !beside_.shown;

@@ -1,5 +1,6 @@
 #include "app/panel.h"
 
+#include "app/panel_lists.h"
 #include "app/randomise.h"
 #include "sim/error.h"
 
@@ -143,6 +144,15 @@ static bool draw_number(Hairstyle& style, const ParamInfo& info, const char* id)
     return changed;
 }
 
+// Shapes are combed, frozen and taken away in the view.
+static bool draw_shape(const Hairstyle& style, const ParamInfo& info, const char* id)
+{
+    const auto& shape = *reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&style.host) + info.offset);
+    std::string said = shape.shapes ? (shape.file.empty() ? "not saved yet" : shape.file) : "none";
+    ImGui::InputText(id, &said, ImGuiInputTextFlags_ReadOnly);
+    return false;
+}
+
 static bool draw_text(Hairstyle& style, const ParamInfo& info, const char* id)
 {
     auto& text = *reinterpret_cast<std::string*>(reinterpret_cast<char*>(&style.host) + info.offset);
@@ -152,47 +162,6 @@ static bool draw_text(Hairstyle& style, const ParamInfo& info, const char* id)
         return false;
     text = edited;
     return true;
-}
-
-static bool draw_colliders(std::vector<Collider>& colliders)
-{
-    bool changed = false;
-    for (size_t i = 0; i < colliders.size(); ++i)
-    {
-        Collider& c = colliders[i];
-        ImGui::PushID(int(i));
-        ImGui::Text("%s %zu", c.to ? "capsule" : "sphere", i + 1);
-        ImGui::SameLine();
-        changed |= ImGui::Checkbox("on the head", &c.on_head);
-        ImGui::SameLine();
-        const bool remove = ImGui::SmallButton("remove");
-        changed |=
-            ImGui::DragFloat3("center", &c.center.x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
-        if (c.to)
-            changed |=
-                ImGui::DragFloat3("to", &c.to->x, 0.002f, -100.0f, 100.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
-        changed |= ImGui::SliderFloat("radius", &c.radius, 0.005f, 1.0f, "%.3f m",
-                                      ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-        ImGui::PopID();
-        if (remove)
-        {
-            colliders.erase(colliders.begin() + ptrdiff_t(i));
-            return true;
-        }
-    }
-    if (colliders.size() >= MOST_COLLIDERS / 2)
-        return changed;
-    const bool sphere = ImGui::Button("add a sphere");
-    ImGui::SameLine();
-    const bool capsule = ImGui::Button("add a capsule");
-    if (sphere || capsule)
-    {
-        colliders.push_back({glm::vec3(0.2f, 0.0f, 0.1f), 0.05f, false, {}});
-        if (capsule)
-            colliders.back().to = glm::vec3(0.2f, -0.2f, 0.1f);
-        changed = true;
-    }
-    return changed;
 }
 
 // A padlock: closed, or open and faint.
@@ -242,7 +211,7 @@ static bool draw_chance(Hairstyle& style, PanelState& state)
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("of the next throw: it goes up by one with each");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - 2.0f * ImGui::GetStyle().ItemInnerSpacing.x);
     float percent = 100.0f * state.amount;
     if (ImGui::SliderFloat("by", &percent, 1.0f, 100.0f, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
         state.amount = 0.01f * percent;
@@ -308,7 +277,9 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             continue;
         if (info.kind == Kind::LIST)
         {
-            changed |= draw_colliders(style.host.colliders);
+            ImGui::PushID(path.c_str());
+            changed |= draw_list(style.host, info);
+            ImGui::PopID();
             continue;
         }
         const bool differs = !same_value(style, defaults, info);
@@ -317,7 +288,9 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         ImGui::SetNextItemWidth(ImGui::GetWindowWidth() * 0.5f);
         const bool unread = !is_read(info, style.params);
         ImGui::BeginDisabled(unread);
-        changed |= info.kind == Kind::TEXT ? draw_text(style, info, id.c_str()) : draw_number(style, info, id.c_str());
+        changed |= info.kind == Kind::TEXT    ? draw_text(style, info, id.c_str())
+                   : info.kind == Kind::SHAPE ? draw_shape(style, info, id.c_str())
+                                              : draw_number(style, info, id.c_str());
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         state.places[path] = {low.x, low.y, high.x, high.y};
         ImGui::EndDisabled();

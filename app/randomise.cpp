@@ -26,7 +26,7 @@ bool is_left_to_chance(const ParamInfo& info, const HairParams& params)
 static double usual_value(const ParamInfo& info)
 {
     static const HairParams defaults;
-    float usual[3];
+    float usual[kMostNumbers];
     get_numbers(defaults, info, usual);
     return double(usual[0]);
 }
@@ -68,9 +68,9 @@ Hairstyle randomised(const Hairstyle& style, int seed, double amount, const std:
         own.add(&seed, sizeof seed);
         std::mt19937 random(unsigned(own.word[0] ^ own.word[1]));
         const auto share = [&] { return double(random()) / 4294967295.0; }; // the same everywhere
-        float now[3];
+        float now[kMostNumbers];
         get_numbers(style.params, info, now);
-        double values[3];
+        double values[kMostNumbers];
         if (info.kind == Kind::CHOICE)
         {
             const double count = double(param_labels(info).size());

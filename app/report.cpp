@@ -46,13 +46,14 @@ int report(const Options& options, const ReportOptions& wanted)
     const Motion motion = find_motion(options.motion);
     const Hairstyle style = load_style(options);
     const Device device = open_device(options);
+    const Progress progress;
+    progress.say(style.name() + ": falls to rest"); // thousands of guides take minutes
     Simulation simulation(device, style);
     simulation.settle(wanted.settle);
     simulation.solver().take_times();
     simulation.play(motion);
 
     const long frames = std::max(1L, std::lround(options.seconds * wanted.fps));
-    const Progress progress;
     Health worst;
     std::vector<int> seen = simulation.solver().resets();
     std::vector<Bad> bad;

@@ -1,5 +1,6 @@
 #include "app/shot.h"
 
+#include "app/progress.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
@@ -94,7 +95,10 @@ Image take_shot(const Options& options, const ShotOptions& shot)
     const Motion motion = find_motion(options.motion);
     const Device device = open_device(options);
     const Window window(16, 16, Window::HIDDEN);
+    const Progress progress;
+    progress.say(style.name() + ": falls to rest"); // thousands of guides take minutes
     Studio studio(device, style, motion, shot);
+    progress.say(style.name() + ": moves");
     studio.play_to(options.seconds);
     return studio.picture();
 }

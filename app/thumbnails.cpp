@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 static constexpr int kVersion = 1;           // of what a thumbnail shows
-static constexpr auto kLongest = 120s;       // that a picture may take
+static constexpr auto kLongest = 300s;       // that a picture may take
 static constexpr auto kLookEvery = 1s;       // at the files that pictures are of
 static constexpr size_t kMostPictures = 500; // kept
 
@@ -172,7 +172,7 @@ void Thumbnails::draw(const fs::path& style, Entry& entry)
         child_ = 0;
         throw fail("{} cannot be started: {}", program_.string(), std::strerror(failed));
     }
-    setpriority(PRIO_PROCESS, id_t(child_), 10);
+    setpriority(PRIO_PROCESS, id_t(child_), 5);
     since_ = std::chrono::steady_clock::now();
     drawing_ = style;
     drawing_key_ = entry.key;

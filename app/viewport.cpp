@@ -188,6 +188,61 @@ Grab grab(const Simulation& simulation, const Camera& camera, double x, double y
     return held;
 }
 
+std::optional<glm::dvec2> project(const Camera& camera, glm::dvec3 point, int width, int height)
+{
+    const Axes axes = axes_of(camera);
+    const glm::dvec3 to = point - camera.position();
+    const double ahead = glm::dot(to, axes.forward);
+    if (!(ahead > 1e-6))
+        return std::nullopt;
+    const double pixel = 2.0 * std::tan(0.5 * camera.fov) / std::max(height, 1);
+    return glm::dvec2(0.5 * width + glm::dot(to, axes.right) / (ahead * pixel),
+                      0.5 * height - glm::dot(to, axes.up) / (ahead * pixel));
+}
+
+std::optional<glm::dvec3> point_on_head(const Simulation& simulation, const Camera& camera, double x, double y,
+                                        int width, int height)
+{
+    const Solver& solver = simulation.solver();
+    const Ray ray = ray_through(camera, x, y, width, height);
+    std::optional<double> nearest = hit_body(ray, solver.body(), solver.head());
+    const std::vector<Capsule> placed = solver.placed_colliders();
+    const size_t of_head = placed.size() - simulation.style().host.colliders.size();
+    for (size_t i = 0; i < of_head; ++i)
+        if (const auto at = hit_collider(ray, placed[i], solver.head().origin); at && (!nearest || *at < *nearest))
+            nearest = at;
+    if (!solver.body().grid && of_head == 0)
+    {
+        const Groom& groom = solver.groom();
+        nearest = hit(ray, solver.head().origin + solver.head().turn * glm::dvec3(groom.center),
+                      double(simulation.assets().scalp.radius * simulation.params().head_scale));
+    }
+    if (!nearest)
+        return std::nullopt;
+    return ray.origin + ray.direction * *nearest;
+}
+
+glm::dvec3 surface_below(const Simulation& simulation, glm::dvec3 point)
+{
+    const Solver& solver = simulation.solver();
+    const PlacedGrid& body = solver.body();
+    const Pose& head = solver.head();
+    const glm::dvec3 center = head.origin + head.turn * glm::dvec3(solver.groom().center);
+    if (!body.grid)
+    {
+        const glm::dvec3 out = point - center;
+        const double radius = double(simulation.assets().scalp.radius * simulation.params().head_scale);
+        return center + out * (radius / std::max(glm::length(out), 1e-6));
+    }
+    const glm::dvec3 inward = glm::normalize(center - point);
+    for (int i = 0; i < 3; ++i)
+    {
+        const glm::dvec3 local = glm::conjugate(head.turn) * (point - head.origin);
+        point += inward * double(distance_to(body, glm::vec3(local)));
+    }
+    return point;
+}
+
 Pose dragged_head(const Grab& held, const Camera& camera, double x, double y, int width, int height)
 {
     if (held.what == Grab::TURN_HEAD)

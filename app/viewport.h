@@ -21,6 +21,16 @@ std::optional<double> hit(const Ray& ray, glm::dvec3 center, double radius);
 // Where the ray meets the plane through `point` that faces the camera.
 glm::dvec3 on_facing_plane(const Ray& ray, const Camera& camera, glm::dvec3 point);
 
+// The pixel that a point of the world is seen at, x from the left and y from the top; none behind the camera.
+std::optional<glm::dvec2> project(const Camera& camera, glm::dvec3 point, int width, int height);
+
+// Where the line of sight through a pixel meets the head's mesh, its spheres or, without either, the scalp's sphere.
+std::optional<glm::dvec3> point_on_head(const Simulation& simulation, const Camera& camera, double x, double y,
+                                        int width, int height);
+
+// The point of the head's surface that is nearest to a point beside it, as its distance grid knows it.
+glm::dvec3 surface_below(const Simulation& simulation, glm::dvec3 point);
+
 // By pixels of the mouse.
 void orbit(Camera& camera, double dx, double dy);
 void pan(Camera& camera, double dx, double dy, int height);
@@ -40,7 +50,9 @@ struct Grab
         MOVE_HEAD,
         TURN_HEAD,
         COLLIDER,
-        TIE
+        TIE,
+        BRUSH,
+        CUT
     } what = NONE;
     size_t collider = 0; // of the style
     size_t tie = 0;      // of the style

@@ -34,7 +34,7 @@ static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose no
 // the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
 // is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Returns the strands that it found in
 // contact.
-#define WALK_ROUNDS 4
+#define WALK_ROUNDS 6
 static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, held_count held,
                              const real* inside)
 {
@@ -87,14 +87,16 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
                 const Points edge =
                     points(last_n.y * across.z - last_n.z * across.y, last_n.z * across.x - last_n.x * across.z,
                            last_n.x * across.y - last_n.y * across.x);
-                const real left = rest * rest - last_offset * last_offset - further * further;
-                real way = sqrt(fmax(left, (real)(0.0f)));
+                // Out of reach of the length: towards the edge, where next round's planes stand further apart.
+                const real foot2 = last_offset * last_offset + further * further;
+                const real part = fmin((real)(1.0f), rest * INVERSE_SQRT(fmax(foot2, 1e-12f * rest * rest)));
+                real way = sqrt(fmax(rest * rest - foot2, (real)(0.0f)));
                 way = select(way, -way, dot_lanes(edge, d) < 0.0f);
                 d = select_points(d,
-                                  points(last_offset * last_n.x + further * across.x + way * edge.x,
-                                         last_offset * last_n.y + further * across.y + way * edge.y,
-                                         last_offset * last_n.z + further * across.z + way * edge.z),
-                                  pinched & (spread > 1e-3f) & (left > 0.0f));
+                                  points(part * (last_offset * last_n.x + further * across.x) + way * edge.x,
+                                         part * (last_offset * last_n.y + further * across.y) + way * edge.y,
+                                         part * (last_offset * last_n.z + further * across.z) + way * edge.z),
+                                  pinched & (spread > 1e-3f));
             }
             last_n = n;
             last_offset = offset;

@@ -314,8 +314,8 @@ static Curl curl_of(const HairParams& p, int guide)
 
 // Nodes of a strand whose own shape is waves and a curl about a straight axis: equally far apart along the curve, which
 // is longer than the axis. Returns the length of its segments, m.
-static double shape_form(const HairParams& p, bool waved, const Curl& curl, glm::dvec3 root, glm::dvec3 along, glm::dvec3 normal,
-                         std::vector<glm::dvec3>& nodes)
+static double shape_form(const HairParams& p, bool waved, const Curl& curl, glm::dvec3 root, glm::dvec3 along,
+                         glm::dvec3 normal, std::vector<glm::dvec3>& nodes)
 {
     const glm::dvec3 binormal = glm::cross(along, normal);
     const double waves = waved ? 1.0 : 0.0;
@@ -417,8 +417,8 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
             const glm::vec3 side = glm::cross(direction, glm::vec3(0.0f, 1.0f, 0.0f));
             const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
             std::vector<glm::dvec3> nodes;
-            segment = float(shape_form(own, waves_are_shape(p), curls_are_shape(p) ? curl_of(own, int(g)) : Curl{}, root,
-                                       along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
+            segment = float(shape_form(own, waves_are_shape(p), curls_are_shape(p) ? curl_of(own, int(g)) : Curl{},
+                                       root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
             for (int k = 0; k < groom.nodes; ++k)
                 for (int axis = 0; axis < 3; ++axis)
                     groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] =

@@ -17,8 +17,8 @@ struct Hairstyle
     std::map<std::string, std::string> places; // "scalp.mesh" -> "bob.toml:3:8", for errors told later
     HairParams params;
     HostParams host;
-    // [variant.NAME]: what differs from the style itself under that name. While one of them is on, `params` are its, and
-    // `own` are the style's.
+    // [variant.NAME]: what differs from the style itself under that name. While one of them is on, `params` are its,
+    // and `own` are the style's.
     std::map<std::string, std::vector<Setting>> variants;
     std::string variant; // that is on; empty: none
     HairParams own;

@@ -97,7 +97,7 @@ struct EntryReader
     }
     float bounded(const toml::node& node, const char* name, double value, Limits bounds) const
     {
-        if (!(value >= double(bounds.min) && value <= double(bounds.max)))
+        if (!(float(value) >= bounds.min && float(value) <= bounds.max)) // as a float: 0.1 is not above 0.1
             throw wrong(node, name,
                         fmt::format("is {}, but must lie in [{}, {}]{}{}", value, bounds.min, bounds.max,
                                     *bounds.unit ? " " : "", bounds.unit));

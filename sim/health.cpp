@@ -1,5 +1,7 @@
 #include "sim/health.h"
 
+#include "sim/bodies.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -9,27 +11,12 @@
 namespace coif
 {
 
-glm::vec3 nearest_on_axis(const Capsule& capsule, glm::vec3 p)
-{
-    const glm::vec3 center(capsule.center.x, capsule.center.y, capsule.center.z);
-    const glm::vec3 axis(capsule.axis.x, capsule.axis.y, capsule.axis.z);
-    return center + axis * std::clamp(glm::dot(p - center, axis) * capsule.axis.w, 0.0f, 1.0f);
-}
-
-double depth_in(const std::vector<Capsule>& colliders, const Solver& solver, glm::vec3 p)
-{
-    const glm::vec3 on_head(glm::conjugate(solver.head().turn) * glm::dvec3(p));
-    double deepest = std::max(0.0, double(-distance_to(solver.body(), on_head)));
-    for (const Capsule& c : colliders)
-        deepest = std::max(deepest, double(c.center.w - glm::distance(p, nearest_on_axis(c, p))));
-    return deepest;
-}
-
 Health measure_health(const Solver& solver, const HairParams& params, bool drawn)
 {
     Health health;
     const Groom& groom = solver.groom();
     const std::vector<Capsule> colliders = solver.placed_colliders();
+    const auto depth = [&](glm::vec3 p) { return depth_in(colliders, solver.body(), solver.head().turn, p); };
     const Mapped guides = solver.guide_positions();
     const float* x = guides.as<float>();
     double sum = 0.0;
@@ -43,7 +30,7 @@ Health measure_health(const Solver& solver, const HairParams& params, bool drawn
             const double stretch = std::abs(double(glm::distance(p, node(k - 1))) / rest - 1.0);
             health.finite &= std::isfinite(stretch);
             health.stretch_max = std::max(health.stretch_max, stretch);
-            health.penetration_max = std::max(health.penetration_max, depth_in(colliders, solver, p));
+            health.penetration_max = std::max(health.penetration_max, depth(p));
             sum += stretch;
         }
     }
@@ -57,8 +44,7 @@ Health measure_health(const Solver& solver, const HairParams& params, bool drawn
         {
             const float4 p = d[s * size_t(groom.nodes) + size_t(k)];
             health.finite &= std::isfinite(p.x + p.y + p.z + p.w);
-            health.drawn_penetration_max =
-                std::max(health.drawn_penetration_max, depth_in(colliders, solver, {p.x, p.y, p.z}));
+            health.drawn_penetration_max = std::max(health.drawn_penetration_max, depth({p.x, p.y, p.z}));
         }
     return health;
 }

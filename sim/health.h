@@ -18,13 +18,6 @@ struct Health
     bool finite = true;
 };
 
-// The point of a capsule's axis that is nearest to p, m. Ericson, Real-Time Collision Detection, 2005, 5.1.2.
-glm::vec3 nearest_on_axis(const Capsule& capsule, glm::vec3 p);
-
-// How deep p lies in the head's grid or in the deepest of the colliders (Solver::placed_colliders), m; 0 outside. p
-// relative to the head's origin along the world's axes.
-double depth_in(const std::vector<Capsule>& colliders, const Solver& solver, glm::vec3 p);
-
 // Reads the guides, and with `drawn` the drawn strands of the last draw() as well.
 Health measure_health(const Solver& solver, const HairParams& params, bool drawn);
 

@@ -240,7 +240,16 @@ static void check_corners(const aiScene& scene, const std::string& name)
     }
 }
 
-Mesh load_mesh(const std::filesystem::path& file)
+// FBX counts in multiples of a centimetre and says so. glTF is in metres, Collada is brought to them by assimp, and the
+// others say nothing.
+static float unit_of(const aiScene& scene)
+{
+    float centimetres = 0.0f;
+    const bool said = scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", centimetres);
+    return said && std::isfinite(centimetres) && centimetres > 0.0f ? 0.01f * centimetres : 1.0f;
+}
+
+FileMesh load_mesh(const std::filesystem::path& file)
 {
     const std::string name = file.string();
     std::error_code error;
@@ -265,11 +274,24 @@ Mesh load_mesh(const std::filesystem::path& file)
     }
     if (!scene || !scene->mRootNode || scene->mNumMeshes == 0)
         throw fail("{}: is no mesh that coif can read: {}", name, importer.GetErrorString());
-    Mesh mesh;
+    FileMesh mesh;
+    mesh.unit = unit_of(*scene);
     append(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name.c_str());
     if (mesh.triangles.empty())
         throw fail("{}: has no triangles", name);
     mesh.normals = vertex_normals(mesh, glm::vec3(0.0f));
+    return mesh;
+}
+
+Mesh upright(FileMesh mesh, int unit, int up)
+{
+    static constexpr float kUnits[] = {0.0f, 1.0f, 0.01f, 0.001f, 0.0254f, 0.3048f}; // m, as params.def lists them
+    const float metres = unit == 0 ? mesh.unit : kUnits[unit];
+    const auto turned = [up](glm::vec3 v) { return up == 0 ? v : glm::vec3(v.x, v.z, -v.y); };
+    for (glm::vec3& p : mesh.positions)
+        p = turned(p) * metres;
+    for (glm::vec3& n : mesh.normals)
+        n = turned(n);
     return mesh;
 }
 

@@ -40,9 +40,18 @@ Scalp load_scalp(const std::filesystem::path& file);
 Scalp refined(const Scalp& scalp, int times);
 int most_refinements(const Scalp& scalp); // that refined() takes, and interpolation.refine
 
-// Any mesh that assimp reads, with its nodes' transforms applied. Normals are computed where the file has none. Throws
-// Error when it is no mesh, has no triangles, more than five million of them, or coordinates that are not finite.
-Mesh load_mesh(const std::filesystem::path& file);
+// A mesh as its file counts.
+struct FileMesh : Mesh
+{
+    float unit = 1.0f; // of its numbers, m; 1 where the format says nothing
+};
+
+// Any mesh that assimp reads, with its nodes' transforms applied and its normals computed. Throws Error when it is no
+// mesh, has no triangles, more than five million of them, or coordinates that are not finite.
+FileMesh load_mesh(const std::filesystem::path& file);
+
+// The mesh in metres with y up, by the choices head.unit and head.up.
+Mesh upright(FileMesh mesh, int unit, int up);
 
 // From the point of triangle abc that is nearest to p, to p, and how long that is, m. Ericson, Real-Time Collision
 // Detection, 2005, section 5.1.5.

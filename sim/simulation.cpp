@@ -48,7 +48,8 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed(style, "interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
-    if (const auto& rest = style.host.groom_rest.shapes; rest && size_t(rest->strands()) != assets.scalp.positions.size())
+    if (const auto& rest = style.host.groom_rest.shapes;
+        rest && size_t(rest->strands()) != assets.scalp.positions.size())
         placed(style, "groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
@@ -58,7 +59,9 @@ Assets load_assets(const Hairstyle& style)
                 placed(style, fmt::format("{}[{}]", info.group, i),
                        [&] { check_entry(style.host, info, i, assets.scalp); });
     if (!style.host.head_mesh.empty())
-        assets.head = load("head.mesh", style.host.head_mesh, load_mesh);
+        assets.head = load("head.mesh", style.host.head_mesh,
+                           [&](const std::filesystem::path& file)
+                           { return upright(load_mesh(file), style.params.head_unit, style.params.head_up); });
     if (!style.host.head_spheres.empty())
         assets.spheres = load("head.spheres", style.host.head_spheres, load_colliders);
     else
@@ -84,9 +87,10 @@ std::string doubtful_size(const HairParams& params, const Assets& assets)
     // A head alone is little larger than its scalp, a whole body ten times.
     if (head > 0.5 * scalp && head < 20.0 * scalp)
         return {};
-    return fmt::format("the head's mesh is {:.3g} m in size, the scalp {:.2g} m: head.mesh_scale is 0.01 for a mesh in "
-                       "centimetres, 0.001 for one in millimetres",
-                       head, scalp);
+    return fmt::format(
+        "the head's mesh is {:.3g} m in size, the scalp {:.2g} m: head.unit says whether its numbers are "
+        "m, cm, mm, inch or foot, where the file does not",
+        head, scalp);
 }
 
 PlacedGrid head_grid(const Hairstyle& style, Assets& assets)
@@ -247,8 +251,10 @@ static bool same_hair(const Hairstyle& a, const Hairstyle& b)
 void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
     const bool meshes =
-        reload || std::ranges::any_of(param_table(), [&](const ParamInfo& info)
-                                      { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
+        reload || authored.params.head_unit != authored_.params.head_unit ||
+        authored.params.head_up != authored_.params.head_up ||
+        std::ranges::any_of(param_table(), [&](const ParamInfo& info)
+                            { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
     Assets fresh = meshes ? load_assets(authored) : Assets{}; // may throw; nothing has changed yet
     Quality quality = quality_;
     Hairstyle style = authored;
@@ -385,6 +391,13 @@ StrandShapes Simulation::shapes() const
     StrandShapes shapes = shapes_of(in_head_frame(position.as<float>(), solver_->groom(), solver_->head().turn),
                                     solver_->groom(), style_.params.head_scale);
     shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes)); // a refined scalp's own come first
+    return shapes;
+}
+
+StrandShapes Simulation::rest_shapes() const
+{
+    StrandShapes shapes = shapes_of(solver_->rest_positions(), solver_->groom(), style_.params.head_scale);
+    shapes.position.resize(assets_.scalp.positions.size() * size_t(shapes.nodes));
     return shapes;
 }
 

@@ -16,7 +16,7 @@ namespace coif
 struct Assets
 {
     Scalp scalp;
-    Mesh head;                                // empty if the style names none
+    Mesh head;                                // m, y up; empty if the style names none
     std::vector<Collider> spheres;            // that stand for the head, unless its grid does
     DistanceGrid distances;                   // to the head's mesh, once a style has asked for them
     std::shared_ptr<const DistanceGrid> grid; // the same with hollows filled, as wide as head.mesh_scale asks
@@ -31,7 +31,7 @@ Assets load_assets(const Hairstyle& style);
 PlacedGrid head_grid(const Hairstyle& style, Assets& assets);
 
 // What a scalp or a head of such a size may come of, as "the scalp is 180 m across"; empty where both are plausible.
-// Meshes do not say their unit, so it is no error.
+// Most files do not say their unit, so it is no error.
 std::string doubtful_size(const HairParams& params, const Assets& assets);
 
 // The head's own spheres, scaled and offset as the style says, unless its grid stands for it; followed by the style's
@@ -84,7 +84,8 @@ class Simulation
     void settle(double seconds);
     // The guides as they lie now, for groom.rest: those at the authored scalp's vertices.
     StrandShapes shapes() const;
-    void reset(); // hair to its rest shape, where the head is
+    StrandShapes rest_shapes() const; // where they begin
+    void reset();                     // hair to its rest shape, where the head is
 
     double step_seconds() const;
     double time() const { return time_; }

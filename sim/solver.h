@@ -65,6 +65,7 @@ class Solver
     const Groom& groom() const { return groom_; }
     const StepInfo& info() const { return info_; }
     const Pose& head() const { return head_; }
+    const std::vector<float>& rest_positions() const { return rest_.position; } // RestShape::position
     std::vector<Capsule> placed_colliders() const; // relative to the head's origin, at the last step
     const PlacedGrid& body() const { return body_; }
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m

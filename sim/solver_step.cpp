@@ -1,8 +1,8 @@
 // What the device does: the passes of a step and of a picture, in their order.
 #include "sim/solver.h"
 
+#include "sim/bodies.h"
 #include "sim/error.h"
-#include "sim/health.h"
 #include "sim/material.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -155,7 +155,7 @@ bool Solver::stands_rigid(const StepInfo& info)
             for (int k = 2; k < groom_.nodes && *rest_clear_; ++k)
             {
                 const glm::dvec3 rest = vector_at(rest_.position.data(), s, k, groom_.nodes);
-                rest_clear_ = depth_in(bodies, *this, glm::vec3(head_.turn * rest)) < kWithin;
+                rest_clear_ = depth_in(bodies, body_, head_.turn, glm::vec3(head_.turn * rest)) < kWithin;
             }
     }
     return *rest_clear_;
@@ -299,7 +299,9 @@ void Solver::draw()
                    size_t(groom_.drawn_multi));
     launch_strands("interpolate_single", options, groom_.drawn.size() - size_t(groom_.drawn_multi));
     if (has_clumps(params_))
-        launch_strands("clump", fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "), groom_.drawn.size());
+        launch_strands("clump",
+                       fmt::format("{}{}", body_.grid ? "-D BODY_GRID " : "", groom_.looks.empty() ? "" : "-D VARIED "),
+                       groom_.drawn.size());
     launch_strands("transport_frames", braided + (has_clumps(params_) ? "-D CLUMPS " : ""), groom_.drawn.size());
 }
 

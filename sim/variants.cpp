@@ -64,7 +64,7 @@ void switch_variant(Hairstyle& style, const std::string& name)
 void take_variant(Hairstyle& style, const std::string& name)
 {
     const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char c)
-                                                             { return std::isalnum(c) || c == '_' || c == '-'; });
+                                                            { return std::isalnum(c) || c == '_' || c == '-'; });
     if (!plain || name.size() > 60)
         throw fail("'{}' cannot be a variant's name: letters, digits, _ and - only", name);
     style.variants = current_variants(style);

@@ -44,30 +44,22 @@ class EditorWindow : public testing::Test
         editor = std::make_unique<Editor>(options);
         frames(3);
         // Without a window manager nobody gives the window the keyboard.
-        xdotool("windowfocus $(xdotool search --onlyvisible --name coif | tail -n 1)");
+        // A window that has just gone may still be found.
+        const char* focus = "xdotool windowfocus $(xdotool search --onlyvisible --name coif 2> /dev/null | tail -n 1)"
+                            " > /dev/null 2>&1";
+        bool focused = false;
+        for (int i = 0; i < 20 && !(focused = std::system(focus) == 0); ++i)
+            frames(3);
+        ASSERT_TRUE(focused);
         frames(2);
     }
-    // The whole window into a folder that is asked for, to be looked at.
+    // A moment worth looking at: COIF_TEST_SHOOT, if set, is a command that is told its name.
     void shoot(const std::string& name)
     {
-        const char* wanted = std::getenv("COIF_TEST_PICTURES");
-        if (!wanted)
-            return;
+        const char* command = std::getenv("COIF_TEST_SHOOT");
         frames(2);
-        int width = 0, height = 0;
-        SDL_GL_GetDrawableSize(editor->window(), &width, &height);
-        std::vector<unsigned char> rows(size_t(4) * size_t(width) * size_t(height));
-        glReadBuffer(GL_FRONT);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-        glReadBuffer(GL_BACK);
-        Image image{width, height, std::vector<unsigned char>(rows.size())};
-        for (int y = 0; y < height; ++y) // GL's first row is the lowest
-            for (int i = 0; i < 4 * width; ++i)
-                image.pixels[size_t(4 * width) * size_t(height - 1 - y) + size_t(i)] =
-                    i % 4 == 3 ? 255 : rows[size_t(4 * width) * size_t(y) + size_t(i)];
-        fs::create_directories(wanted);
-        save_png(fs::path(wanted) / (name + ".png"), image);
+        if (command && std::system((std::string(command) + " " + name).c_str()) != 0)
+            ADD_FAILURE() << command << " " << name;
     }
     void TearDown() override
     {
@@ -106,29 +98,43 @@ class EditorWindow : public testing::Test
         SDL_GetWindowPosition(editor->window(), &left, &top);
         return std::to_string(left + int(x)) + " " + std::to_string(top + int(y));
     }
-    void drag(double x0, double y0, double x1, double y1, const std::string& button = "1")
+    // The mouse goes there, or presses and lets go; what is done has arrived when these return, however busy the
+    // machine.
+    void point(double x, double y)
     {
-        xdotool("mousemove " + at(x0, y0));
-        frames(3);
+        xdotool("mousemove " + at(x, y));
+        int now_x = 0, now_y = 0;
+        until(
+            [&]
+            {
+                SDL_GetMouseState(&now_x, &now_y);
+                return std::abs(now_x - int(x)) <= 1 && std::abs(now_y - int(y)) <= 1;
+            });
+        frames(2);
+    }
+    void press(const std::string& button = "1")
+    {
         xdotool("mousedown " + button);
-        frames(3);
-        for (int i = 1; i <= 5; ++i)
-        {
-            xdotool("mousemove " + at(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5));
-            frames(2);
-        }
+        until([] { return SDL_GetMouseState(nullptr, nullptr) != 0; });
+        frames(2);
     }
     void release(const std::string& button = "1")
     {
         xdotool("mouseup " + button);
+        until([] { return SDL_GetMouseState(nullptr, nullptr) == 0; });
         frames(3);
+    }
+    void drag(double x0, double y0, double x1, double y1, const std::string& button = "1")
+    {
+        point(x0, y0);
+        press(button);
+        for (int i = 1; i <= 5; ++i)
+            point(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5);
     }
     void click(const WidgetPlace& place)
     {
-        xdotool("mousemove " + at(0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)));
-        frames(3);
-        xdotool("mousedown 1");
-        frames(3);
+        point(0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom));
+        press();
         release();
     }
     // By the mouse, from one share of a widget to another.

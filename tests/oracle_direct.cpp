@@ -174,7 +174,7 @@ static void push_and_rub(const DirectStep& step, const Place& last, const Place&
 }
 
 // From root to tip: each node at its length from its parent and, if inside a body, where that length meets the plane
-// that touches the body under it, in the plane of its direction; found again four times.
+// that touches the body under it, in the plane of its direction; found again six times.
 static bool walk_out(const DirectStep& step, const Place& now, const Strand& strand, const std::vector<double>& inside,
                      std::vector<Vec>& x, const Rounder& round)
 {
@@ -187,7 +187,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
         d *= rest / std::max(glm::length(d), 1e-6 * rest);
         Vec n_before(0.0);
         double level_before = 0.0;
-        for (int turn = 0; turn < 4; ++turn)
+        for (int turn = 0; turn < 6; ++turn)
         {
             const Vec at = parent + d + round(6.0 * (glm::length(parent) + rest));
             const Nearest body = nearest_body(step, now, at, round);
@@ -203,7 +203,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
                 flat = std::abs(n.x) > 0.6 ? Vec(-n.z, 0.0, n.x) : Vec(0.0, n.z, -n.y);
             const double level = glm::dot(n, d) - gap;
             d = std::sqrt(std::max(rest * rest - height * height, 0.0)) * glm::normalize(flat) - height * n;
-            // Below the last plane again: on the edge of both, where it is that far.
+            // Below the last plane again: on the edge of both, or towards it where it is farther away than that.
             const double both = glm::dot(n, n_before);
             if (turn > 0 && glm::dot(n_before, d) < level_before && 1.0 - both * both > 1e-3)
             {
@@ -211,8 +211,8 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
                 const Vec base =
                     glm::inverse(glm::transpose(glm::dmat3(n_before, n, edge))) * Vec(level_before, level, 0.0);
                 const double left = rest * rest - glm::dot(base, base);
-                if (left > 0.0)
-                    d = base + std::copysign(std::sqrt(left), glm::dot(edge, d)) * edge;
+                d = left > 0.0 ? base + std::copysign(std::sqrt(left), glm::dot(edge, d)) * edge
+                               : rest * glm::normalize(base);
             }
             n_before = n;
             level_before = level;

@@ -36,6 +36,7 @@ struct Field
     X(sweep_axis) X(sweep_from) X(sweep_sign) X(body_x) X(body_y) X(body_z)
 #define PATH_FIELDS(X) X(row) X(drag)
 #define CAPSULE_FIELDS(X) X(center) X(axis)
+#define LOOK_FIELDS(X) X(root_color) X(tip_color) X(wave) X(own)
 #define DRAWN_FIELDS(X) X(root) X(weights) X(guide0) X(guide1) X(guide2) X(seed) X(leader)
 #define TIED_FIELDS(X) X(place) X(ring) X(tail) X(unused0) X(unused1)
 #define TAIL_FIELDS(X)                                                                                                 \
@@ -61,12 +62,14 @@ std::vector<Field> all_fields()
 #define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
 #define TIED_FIELD(name) fields.push_back({"TiedStrand", #name, int(offsetof(TiedStrand, name))});
 #define TAIL_FIELD(name) fields.push_back({"Tail", #name, int(offsetof(Tail, name))});
+#define LOOK_FIELD(name) fields.push_back({"StrandLook", #name, int(offsetof(StrandLook, name))});
     STEP_FIELDS(STEP_FIELD)
     PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
     CAPSULE_FIELDS(CAPSULE_FIELD)
     TIED_FIELDS(TIED_FIELD)
     TAIL_FIELDS(TAIL_FIELD)
+    LOOK_FIELDS(LOOK_FIELD)
     return fields;
 }
 
@@ -107,7 +110,8 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
         body += fmt::format("    offset[{}] = (int)((char*)&{}.{} - (char*)&{});\n", i, fields[i].type + "_",
                             fields[i].name, fields[i].type + "_");
     int at = int(fields.size());
-    for (const char* type : {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule", "TiedStrand", "Tail"})
+    for (const char* type :
+         {"HairParams", "StepInfo", "StepPath", "DrawnStrand", "Capsule", "TiedStrand", "Tail", "StrandLook"})
         body += fmt::format("    offset[{}] = (int)sizeof({});\n", at++, type);
 
     // A kernel is read with its headers beside it.
@@ -119,14 +123,15 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     write_file(folder / "report_layout.cl", "#include \"shared.h\"\nkernel void report_layout(global int* offset)\n{\n"
                                             "    HairParams HairParams_;\n    StepInfo StepInfo_;\n"
                                             "    StepPath StepPath_;\n    DrawnStrand DrawnStrand_;\n"
-                                            "    Capsule Capsule_;\n    TiedStrand TiedStrand_;\n    Tail Tail_;\n" +
+                                            "    Capsule Capsule_;\n    TiedStrand TiedStrand_;\n    Tail Tail_;\n"
+                                            "    StrandLook StrandLook_;\n" +
                                                 body + "}\n");
     Device device = test_device();
     device.kernel_folder = folder;
     Kernel kernel = load_kernel(device, "report_layout", "");
-    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 7, -1))}};
+    const Buffers buffers = {{"offset", filled(device, std::vector<int>(fields.size() + 8, -1))}};
     run(device, kernel, buffers, cl::NDRange(1));
-    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 7);
+    const std::vector<int> offset = read<int>(device, buffers.at("offset"), fields.size() + 8);
 
     for (size_t i = 0; i < fields.size(); ++i)
         EXPECT_EQ(offset[i], fields[i].offset) << fields[i].type << "." << fields[i].name;
@@ -137,6 +142,7 @@ TEST(Layout, OpenClPlacesEveryFieldWhereCppDoes)
     EXPECT_EQ(offset[fields.size() + 4], int(sizeof(Capsule)));
     EXPECT_EQ(offset[fields.size() + 5], int(sizeof(TiedStrand)));
     EXPECT_EQ(offset[fields.size() + 6], int(sizeof(Tail)));
+    EXPECT_EQ(offset[fields.size() + 7], int(sizeof(StrandLook)));
 }
 
 // A program whose only purpose is to make a uniform block active.

@@ -24,7 +24,7 @@ Hairstyle busy_style()
     for (const char* set : {"head.mesh=", "interpolation.strands=60", "grid.resolution=20", "grid.blur=0.05",
                             "forces.wind=[3, 0, 1]", "forces.repulsion=1", "wave.normal_amplitude=0.01",
                             "wave.binormal_amplitude=0.008", "interpolation.layer=0.01", "curl.radius=0.005",
-                            "frizz.amount=0.002", "flyaway.share=0.2", "clump.strength=0.5"})
+                            "frizz.amount=0.002", "flyaway.share=0.2", "clump.strength=0.5", "clump.size=0.15"})
         assign(style, set);
     return style;
 }
@@ -75,6 +75,8 @@ TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther
     // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
     // the shaders read of a wave. There is one way yet to choose guides.
     const std::set<std::string> elsewhere = {"head.mesh_scale",
+                                             "head.unit",
+                                             "head.up",
                                              "wave.normal_frequency",
                                              "wave.normal_randomness",
                                              "wave.binormal_frequency",

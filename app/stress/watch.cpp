@@ -1,5 +1,6 @@
 #include "app/stress/watch.h"
 
+#include "sim/bodies.h"
 #include "sim/health.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,11 @@ void add(Figures& sum, const Figures& more)
     sum.looks += more.looks;
     if (sum.fault.empty())
         sum.fault = more.fault;
+}
+
+static double depth_in(const std::vector<Capsule>& bodies, const Solver& solver, glm::dvec3 p)
+{
+    return depth_in(bodies, solver.body(), solver.head().turn, p);
 }
 
 // The shortest straight way out of the union of all bodies, about: along the ways out of each and the axes.

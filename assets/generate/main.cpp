@@ -82,7 +82,8 @@ int main(int argc, char** argv)
         write(folder + "scalp.obj", obj(scalp(7, head, inside_hairline), "the whole scalp, a guide a vertex", 6));
         write(folder + "scalp_top.obj", obj(scalp(11, head, top), "the top of the scalp, for an undercut", 6));
         write(folder + "scalp_strip.obj", obj(scalp(16, head, strip), "a strip along the midline, for a mohawk", 6));
-        const Mesh bust = polygonise(head, {-0.18, -0.30, -0.13}, {0.18, 0.11, 0.14}, 0.003, sag, 0.0009);
+        // A grid so fine that no cell holds two sheets of an ear, which would be welded.
+        const Mesh bust = polygonise(head, {-0.18, -0.30, -0.13}, {0.18, 0.11, 0.14}, 0.0027, sag, 0.0009);
         write(folder + "head.obj", obj(bust, "a mannequin's bust for the scalps beside it", 5));
         write(folder + "head_spheres.toml", toml(fill_with_spheres(bust, head, inside_hairline, 35)));
     }

@@ -1,5 +1,6 @@
 // Hairstyle files: what a save writes, keeps and replaces.
 #include "sim/hairstyle.h"
+#include "tests/host/entries.h"
 #include "tests/host/scratch.h"
 
 #include <cmath>
@@ -41,10 +42,9 @@ Hairstyle random_style(unsigned seed)
                 kTexts[random() % std::size(kTexts)];
         else if (info.kind == Kind::LIST)
             for (unsigned i = random() % 4; i > 0; --i)
-                style.host.colliders.push_back({{float(between(random, -100, 100)), float(between(random, -0.01, 0.01)),
-                                                 float(between(random, -1e-6, 1e-6))},
-                                                float(between(random, 0.002, 99)),
-                                                random() % 2 == 0});
+                test::add_entry(style, info, random);
+        else if (info.kind == Kind::SHAPE)
+            continue; // a file of its own
         else
         {
             double v[kMostNumbers];

@@ -1,6 +1,7 @@
 // Undo as a property: whatever is done, taken back all of it gives the first state, and done again the last.
 #include "app/history.h"
 #include "sim/source.h"
+#include "tests/host/entries.h"
 #include "tests/host/scratch.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void change(Hairstyle& style, std::mt19937& random)
     const std::span<const ParamInfo> table = param_table();
     const ParamInfo& info = table[random() % table.size()];
     if (info.kind == Kind::LIST)
-        style.host.colliders.push_back({{float(random() % 10), 0.0f, 0.0f}, 0.1f, random() % 2 == 0});
+        test::add_entry(style, info, random);
     if (info.on_host())
         return;
     double values[kMostNumbers];

@@ -1,5 +1,6 @@
 // The table of parameters (kernels/params.def) and what walks over it.
 #include "sim/hairstyle.h"
+#include "tests/host/entries.h"
 #include "tests/host/scratch.h"
 
 #include <cmath>
@@ -23,8 +24,11 @@ double linear_of_srgb(double c) // IEC 61966-2-1
 // Another value than `style` has, in range.
 void change(Hairstyle& style, const ParamInfo& info)
 {
+    std::mt19937 random(1);
     if (info.kind == Kind::LIST)
-        style.host.colliders.push_back({});
+        test::add_entry(style, info, random);
+    else if (info.kind == Kind::SHAPE)
+        style.host.groom_rest.shapes = std::make_shared<const StrandShapes>();
     else if (info.kind == Kind::TEXT)
         assign(style, info.path() + "=something else");
     else

@@ -1,0 +1,11 @@
+#pragma once
+#include "sim/hairstyle.h"
+
+namespace coif
+{
+
+// Widgets for one list of a style, entry by entry, by the fields that sim/lists.h declares. True when something
+// changed; what is left is as a file may say it.
+bool draw_list(HostParams& host, const ParamInfo& info);
+
+} // namespace coif
