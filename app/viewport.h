@@ -50,9 +50,9 @@ struct Grab
         MOVE_HEAD,
         TURN_HEAD,
         COLLIDER,
+        TIE,
         BRUSH,
-        CUT,
-        TIE
+        CUT
     } what = NONE;
     size_t collider = 0; // of the style
     size_t tie = 0;      // of the style

@@ -60,16 +60,16 @@ std::vector<Field> all_fields()
 #define DRAWN_FIELD(name) fields.push_back({"DrawnStrand", #name, int(offsetof(DrawnStrand, name))});
 #define PATH_FIELD(name) fields.push_back({"StepPath", #name, int(offsetof(StepPath, name))});
 #define CAPSULE_FIELD(name) fields.push_back({"Capsule", #name, int(offsetof(Capsule, name))});
-#define LOOK_FIELD(name) fields.push_back({"StrandLook", #name, int(offsetof(StrandLook, name))});
 #define TIED_FIELD(name) fields.push_back({"TiedStrand", #name, int(offsetof(TiedStrand, name))});
 #define TAIL_FIELD(name) fields.push_back({"Tail", #name, int(offsetof(Tail, name))});
+#define LOOK_FIELD(name) fields.push_back({"StrandLook", #name, int(offsetof(StrandLook, name))});
     STEP_FIELDS(STEP_FIELD)
     PATH_FIELDS(PATH_FIELD)
     DRAWN_FIELDS(DRAWN_FIELD)
     CAPSULE_FIELDS(CAPSULE_FIELD)
-    LOOK_FIELDS(LOOK_FIELD)
     TIED_FIELDS(TIED_FIELD)
     TAIL_FIELDS(TAIL_FIELD)
+    LOOK_FIELDS(LOOK_FIELD)
     return fields;
 }
 

@@ -75,7 +75,8 @@ TEST(Morph, maps_and_rest_shapes_go_over_evenly)
     b.host.groom_rest = {"b.rest", shape(1.0f)};
     const HostParams half = morphed(a, b, 0.5).host;
     ASSERT_EQ(half.maps.size(), 3u);
-    EXPECT_EQ(half.maps[0].values, (std::vector<float>{0.2f, 0.1f}));
+    EXPECT_FLOAT_EQ(half.maps[0].values.at(0), 0.2f);
+    EXPECT_FLOAT_EQ(half.maps[0].values.at(1), 0.1f);
     EXPECT_EQ(half.maps[0].file, "") << "another's file is not written over";
     EXPECT_EQ(half.maps[1].values, (std::vector<float>{1.5f, 2.0f})) << "towards no change";
     EXPECT_EQ(half.maps[2].values, (std::vector<float>{0.75f, 1.0f}));
