@@ -347,6 +347,13 @@ bool Editor::frame()
     guarded([&] { measure_quality(); });
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();
+    // Where the mouse is, by the window's own events: what the server says of the whole screen may lag behind them.
+    if (SDL_GetMouseFocus() == window_.sdl())
+    {
+        int x = 0, y = 0;
+        SDL_GetMouseState(&x, &y);
+        ImGui::GetIO().MousePos = ImVec2(float(x), float(y));
+    }
     ImGui::NewFrame();
     draw_ui();                                                 // may change the style, which shows in this very frame
     if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE) // a drag is one edit

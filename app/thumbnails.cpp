@@ -192,7 +192,7 @@ bool Thumbnails::look_after_child()
     child_ = 0;
     Entry& entry = entries_[drawing_];
     const fs::path words = folder_ / (drawing_key_ + ".txt");
-    if (entry.key == drawing_key_ && !read_kept(entry))
+    if (entry.key == drawing_key_ && entry.state == Entry::WAITING && !read_kept(entry))
     {
         entry.state = Entry::FAILED;
         ++entry.version;

@@ -106,8 +106,8 @@ TEST(ReloadedKernels, take_effect_and_broken_ones_leave_the_last_good)
         std::ifstream in(pass);
         return std::string(std::istreambuf_iterator<char>(in), {});
     }();
+    simulation.solver().draw(); // which builds it
     std::ofstream(pass) << good << "\nthis is no kernel\n";
-    simulation.solver().draw();
     EXPECT_THROW(simulation.solver().reload_kernels(), Error);
     const auto frames = [&]
     {

@@ -62,7 +62,7 @@ TEST_F(ThumbnailsOf, a_style_is_drawn_once_and_again_when_it_or_what_lies_in_the
             thumbnails.work();
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
-        EXPECT_EQ(pictures(), 2u);
+        EXPECT_EQ(pictures(), 2u) << thumbnails.of(folder / "small.toml").why;
         EXPECT_NE(thumbnails.of(folder / "small.toml").image.pixels, first.image.pixels);
     }
     const fs::path kept = folder / "cache" / (first.key + ".png");
