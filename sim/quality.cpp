@@ -40,8 +40,13 @@ static Groom sample(const Groom& all)
     few.root_direction = pick(all.root_direction, 1, 3);
     few.segment_length = pick(all.segment_length, 1, 1);
     few.natural_position = pick(all.natural_position, all.nodes, 3);
+    few.bend_factor = pick(all.bend_factor, 1, 1);
     few.rest_position.clear();
     few.rest_multiplier.clear();
+    few.looks.clear();
+    few.held.clear(); // as if no ring held them: what swings behind one swings so
+    few.tied.clear();
+    few.tails.clear();
     return few;
 }
 
