@@ -55,9 +55,11 @@ static int run_keys()
         else if (!info.on_host())
             range = fmt::format("[{}, {}]{}{}", info.min, info.max, *info.unit ? " " : "", info.unit);
         const std::string reader = only_reader(info);
-        fmt::print("{:<28} {:<13} {:<20} {:<28} {}{}\n", info.path(), kind_name(info.kind),
+        const bool varies = info.scope == Scope::STRAND && !info.on_host();
+        fmt::print("{:<28} {:<13} {:<20} {:<28} {}{}{}\n", info.path(), kind_name(info.kind),
                    info.kind == Kind::LIST ? "" : value_text(defaults, info), range, info.help,
-                   reader.empty() ? "" : fmt::format(" Only the {} solver reads it.", reader));
+                   reader.empty() ? "" : fmt::format(" Only the {} solver reads it.", reader),
+                   varies ? " May vary over the scalp." : "");
     }
     return 0;
 }

@@ -29,7 +29,7 @@ class EditorBrush : public EditorWindow
     // A stroke of the left button over the head, which the view shows in its middle.
     void stroke(double dx, double dy, const char* modifier = "")
     {
-        const double x = 0.5 * editor->view_width(), y = 260.0;
+        const double x = 0.5 * editor->view_width(), y = 200.0;
         xdotool("mousemove " + at(x - 0.5 * dx, y - 0.5 * dy));
         frames(2);
         const std::string key = modifier;
