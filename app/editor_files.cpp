@@ -56,6 +56,11 @@ std::vector<fs::path> Editor::watched_files()
         }
     for (const auto& [key, file] : named_)
         files.push_back(file);
+    if (!style_.host.groom_rest.file.empty())
+        files.push_back(style_.file.parent_path() / style_.host.groom_rest.file);
+    for (const ScalpMap& map : style_.host.maps)
+        if (!map.file.empty())
+            files.push_back(style_.file.parent_path() / map.file);
     files.push_back(motion_file(motion_));
     std::error_code error;
     for (const char* folder : {"kernels", "shaders"})
@@ -81,7 +86,11 @@ void Editor::look_at_files()
     {
         const bool named = std::ranges::any_of(named_, [&](const auto& entry) { return entry.second == file; });
         const bool there = fs::exists(file, error);
+        const auto beside = [&](const std::string& name)
+        { return !name.empty() && file == style_.file.parent_path() / name; };
         style |= file == style_.file;
+        style |= there && (beside(style_.host.groom_rest.file) ||
+                           std::ranges::any_of(style_.host.maps, beside, &ScalpMap::file));
         meshes |= named && there;
         motion |= file == motion_file(motion_) && there;
         if (!there && file != style_.file)

@@ -18,6 +18,7 @@ namespace coif
 namespace fs = std::filesystem;
 
 static const char kFirstLine[] = "# coif: unsaved work on the hairstyle\n";
+static const char kShapesFollow[] = "\n# coif: and the shapes of its strands\n";
 
 // A lock on the file, which is made if `make`; -1 if another has it, or there is none.
 static int locked(const fs::path& file, bool make)
@@ -53,11 +54,12 @@ static std::string time_text(const fs::path& file)
     return {text, std::strftime(text, sizeof text, same_day ? "%H:%M" : "%Y-%m-%d %H:%M", &then)};
 }
 
-// Its first line is said, the second names the hairstyle's file, and all that follows is the hairstyle.
+// Its first line is said, the second names the hairstyle's file, and all that follows is the hairstyle; what else would
+// lie in files beside that comes last.
 static std::optional<Recovery> read_recovery(const fs::path& kept)
 try
 {
-    const std::string bytes = read_file(kept, 8 << 20);
+    const std::string bytes = read_file(kept, 256 << 20);
     const size_t begin = sizeof kFirstLine - 1, end = bytes.find('\n', begin);
     if (!bytes.starts_with(kFirstLine) || end == bytes.npos || bytes.compare(begin, 2, "# ") != 0)
         return std::nullopt;
@@ -116,7 +118,16 @@ std::vector<Recovery> find_recoveries(const fs::path& folder)
     return recoveries;
 }
 
-Hairstyle recovered(const Recovery& recovery) { return parse_hairstyle(recovery.text, recovery.file); }
+Hairstyle recovered(const Recovery& recovery)
+{
+    const size_t shapes = recovery.text.rfind(kShapesFollow);
+    if (shapes == std::string::npos)
+        return parse_hairstyle(recovery.text, recovery.file);
+    Hairstyle style = parse_hairstyle(recovery.text.substr(0, shapes), recovery.file, false);
+    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(
+        parse_shapes(recovery.text.substr(shapes + sizeof kShapesFollow - 1), recovery.kept.string()));
+    return style;
+}
 
 void discard(const Recovery& recovery)
 {
@@ -190,7 +201,12 @@ void Autosave::write(const Hairstyle& style)
 {
     const std::lock_guard hold(files_);
     const fs::path file = style.file.empty() ? fs::path() : fs::absolute(style.file);
-    const std::string text = kFirstLine + ("# " + file.string()) + "\n" + hairstyle_text(style, style.file);
+    Hairstyle whole = style;
+    for (ScalpMap& map : whole.host.maps)
+        map.file.clear(); // values and all
+    std::string text = kFirstLine + ("# " + file.string()) + "\n" + hairstyle_text(whole, style.file);
+    if (style.host.groom_rest.shapes)
+        text += kShapesFollow + shapes_text(*style.host.groom_rest.shapes);
     if (lock_ < 0)
     {
         make_folder(folder_);

@@ -79,8 +79,14 @@ void Thumbnails::find_key(const fs::path& style, Entry& entry)
     const int version[2] = {kVersion, kSize};
     key.add(version, sizeof version);
     add(style);
+    std::vector<std::string> beside; // shapes and large maps
+    for (const ScalpMap& map : hair.host.maps)
+        if (!map.file.empty())
+            beside.push_back(map.file);
     for (const ParamInfo& info : param_table())
     {
+        if (info.kind == Kind::SHAPE && !hair.host.groom_rest.file.empty())
+            beside.push_back(hair.host.groom_rest.file);
         if (info.kind != Kind::TEXT)
             continue;
         const auto& named =
@@ -88,6 +94,12 @@ void Thumbnails::find_key(const fs::path& style, Entry& entry)
         if (named.empty())
             continue;
         const fs::path file = resolve_path(hair, info.path(), named, data_folder() / "assets");
+        entry.files[file] = written(file);
+        add(file);
+    }
+    for (const std::string& name : beside)
+    {
+        const fs::path file = style.parent_path() / name;
         entry.files[file] = written(file);
         add(file);
     }

@@ -15,7 +15,11 @@ namespace coif
 
 StrandShapes read_shapes(const std::filesystem::path& file)
 {
-    const std::string text = read_file(file, 256 << 20), name = file.string();
+    return parse_shapes(read_file(file, 256 << 20), file.string());
+}
+
+StrandShapes parse_shapes(const std::string& text, const std::string& name)
+{
     size_t line = 0, begin = 0;
     const auto next_line = [&]
     {

@@ -35,6 +35,7 @@ struct StoredShape
 
 // A text file: "coif rest 1", "strands N nodes M", then three numbers for each node. Throws Error with file and line.
 StrandShapes read_shapes(const std::filesystem::path& file);
+StrandShapes parse_shapes(const std::string& text, const std::string& name);
 std::string shapes_text(const StrandShapes& shapes);
 
 // Gives a groom these shapes for its rest shape, to be held whole: its strands follow their curves as far as they are

@@ -31,7 +31,15 @@ class Repulsion : public testing::Test
         }
         return both / own;
     }
-    Hair hair = hair_of(test_device(), load_hairstyle(find_style("bob")));
+    // On a ball, so that its bounds say nothing of whichever head coif ships.
+    static Hairstyle on_ball()
+    {
+        Hairstyle style = load_hairstyle(find_style("bob"));
+        style.host.scalp_mesh = COIF_SOURCE_FOLDER "/tests/reference/ball_scalp.obj";
+        style.host.head_mesh = style.host.head_spheres = "";
+        return style;
+    }
+    Hair hair = hair_of(test_device(), on_ball());
 };
 
 // Where the coarsest grid has voxels of 18 mm, which no more than hold the width.
@@ -40,7 +48,7 @@ TEST_F(Repulsion, IsAsStrongInCoarseGridsAsInFineOnes)
     hair.params.grid_blur = 0.03f;
     const Forces finest = forces(128), middle = forces(64), coarse = forces(32);
     EXPECT_NEAR(strength(middle, finest), 1.0, 0.01);
-    EXPECT_NEAR(strength(coarse, finest), 1.0, 0.07);
+    EXPECT_NEAR(strength(coarse, finest), 1.0, 0.08); // 0.070 on this ball
     EXPECT_LE(difference(middle, finest), 0.06);
     EXPECT_LE(difference(coarse, finest), 0.16);
 }

@@ -83,6 +83,27 @@ TEST(Recovery, what_an_editor_left_is_found_with_its_comments_and_can_be_thrown_
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
+TEST(Recovery, what_lies_in_files_beside_a_style_is_kept_too)
+{
+    const Scratch scratch;
+    const fs::path folder = scratch / "state";
+    Hairstyle style = style_of(scratch);
+    StrandShapes shapes{3, {}};
+    for (int i = 0; i < 30; ++i)
+        shapes.position.emplace_back(0.01f * float(i), 0.2f, -0.3f);
+    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(shapes);
+    style.host.maps.push_back({"strand.length", MAP_OFFSET, std::vector<float>(5000, 0.25f), "my.map"});
+    Autosave(folder, 1ms).keep(style);
+    const std::vector<Recovery> found = find_recoveries(folder);
+    ASSERT_EQ(found.size(), 1u);
+    const Hairstyle again = recovered(found[0]);
+    ASSERT_TRUE(again.host.groom_rest.shapes);
+    EXPECT_EQ(*again.host.groom_rest.shapes, shapes);
+    ASSERT_EQ(again.host.maps.size(), 1u);
+    EXPECT_EQ(again.host.maps[0].values, style.host.maps[0].values);
+    EXPECT_FALSE(fs::exists(scratch / "my.map")) << "nothing is written beside the style before it is saved";
+}
+
 TEST(Recovery, two_editors_of_one_file_keep_their_own_and_only_one_takes_over_a_third)
 {
     const Scratch scratch;
