@@ -1,5 +1,7 @@
 #include "app/strand_colors.h"
 
+#include "sim/shaping.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,7 +17,9 @@ enum Colors // as render.colors lists them
     HAIR,
     STRETCH,
     DENSITY,
-    KIND
+    KIND,
+    REGION,
+    MAP
 };
 
 glm::vec3 ramp_color(float value)
@@ -141,6 +145,66 @@ static void tell_kind(StrandColors& colors, const Groom& groom)
     colors.readings = {"mixed of three guides", "copies of one"};
 }
 
+// A style over its scalp, as its guides stand on it.
+template <typename Tell> static void tell_of_roots(StrandColors& colors, const Simulation& simulation, Tell tell)
+{
+    const Scalp scalp = refined(simulation.assets().scalp, simulation.params().interpolation_refine);
+    const Shaping shaping = shape_over(simulation.params(), simulation.style().host, simulation.assets().scalp, scalp);
+    std::vector<float> of_guide;
+    for (size_t g = 0; g < scalp.positions.size(); ++g)
+        of_guide.push_back(tell(shaping, at_vertex(scalp, g)));
+    const Groom& groom = simulation.solver().groom();
+    for (const DrawnStrand& strand : groom.drawn) // as the guide that it follows most
+        colors.value.insert(colors.value.end(), size_t(groom.nodes), of_guide.at(size_t(strand.guide0)));
+}
+
+// The last region that each root belongs to more than not.
+static void tell_region(StrandColors& colors, const Simulation& simulation)
+{
+    const std::vector<Region>& regions = simulation.style().host.regions;
+    const bool one = regions.size() == 1; // two sorts, as kinds are
+    const auto place = [&](size_t of)     // 0: none
+    { return one ? (of ? kCopyPlace : kMixedPlace) : float(of) / float(std::max<size_t>(1, regions.size())); };
+    tell_of_roots(colors, simulation,
+                  [&](const Shaping& shaping, const ScalpPlace& root)
+                  {
+                      size_t last = 0;
+                      for (size_t r = 0; r < regions.size(); ++r)
+                          last = region_weight(shaping, r, root) > 0.5f ? r + 1 : last;
+                      return place(last);
+                  });
+    colors.title = "regions";
+    colors.readings = {"none"};
+    for (const Region& region : regions)
+        colors.readings.push_back(region.name);
+    if (regions.empty())
+        colors.readings.push_back("none");
+}
+
+// The newest map, from its least value to its greatest.
+static void tell_map(StrandColors& colors, const Simulation& simulation)
+{
+    const std::vector<ScalpMap>& maps = simulation.style().host.maps;
+    const bool color = !maps.empty() && maps.back().how == MAP_OVER; // then: how far it covers
+    std::vector<float> values;
+    tell_of_roots(colors, simulation,
+                  [&](const Shaping& shaping, const ScalpPlace& root)
+                  {
+                      if (maps.empty())
+                          return 0.0f;
+                      const std::vector<float>& all = shaping.map_values.back();
+                      values.push_back(color ? all[4 * root.corners.x + 3] : all[root.corners.x]);
+                      return values.back();
+                  });
+    const auto [low, high] = std::ranges::minmax_element(values);
+    const float least = values.empty() ? 0.0f : *low, span = values.empty() ? 0.0f : *high - least;
+    for (float& value : colors.value)
+        value = span > 0.0f ? (value - least) / span : 0.0f;
+    colors.title = maps.empty() ? "no map yet" : "map of " + maps.back().of;
+    colors.readings = {fmt::format("{:.3g}", least), fmt::format("{:.3g}", least + 0.5f * span),
+                       fmt::format("{:.3g}", least + span)};
+}
+
 StrandColors strand_colors(const Simulation& simulation, const Mapped& drawn, const Mapped& guides)
 {
     StrandColors colors;
@@ -155,6 +219,12 @@ StrandColors strand_colors(const Simulation& simulation, const Mapped& drawn, co
         break;
     case KIND:
         tell_kind(colors, groom);
+        break;
+    case REGION:
+        tell_region(colors, simulation);
+        break;
+    case MAP:
+        tell_map(colors, simulation);
         break;
     default:
         break;

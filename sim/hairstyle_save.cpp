@@ -73,12 +73,20 @@ void write_file(const fs::path& file, const std::string& bytes)
 
 void refuse_deep_keys(const std::string& text, const fs::path& file)
 {
-    // Dots beyond the 64th of their lines. 256 colliders in one line hold some 1500.
+    // Dots beyond the 64th of their lines, but for the first in a run of digits: maps hold thousands of numbers. 256
+    // colliders in one line hold some 1500 dots.
     size_t in_line = 0, surplus = 0;
+    bool in_number = false, fraction = false; // within digits; after their dot
     for (const char c : text)
     {
-        in_line = c == '\n' ? 0 : in_line + (c == '.');
-        surplus += c == '.' && in_line > 64;
+        const bool digit = c >= '0' && c <= '9';
+        const bool of_number = c == '.' && in_number && !fraction;
+        if (c == '\n')
+            in_line = 0;
+        else if (c == '.' && !of_number)
+            surplus += ++in_line > 64;
+        fraction = of_number || (fraction && (digit || c == '.'));
+        in_number = digit || c == '.';
     }
     if (surplus > 4000)
         throw fail("{}: holds keys with more dots than coif takes", file.string());

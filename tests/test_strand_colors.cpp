@@ -55,6 +55,39 @@ TEST(StrandColors, tell_one_value_a_node_on_the_scale_that_they_name)
               ptrdiff_t(simulation.solver().groom().drawn_multi * simulation.solver().groom().nodes));
 }
 
+TEST(StrandColors, tell_regions_and_maps)
+{
+    Hairstyle style = style_with("region");
+    Simulation simulation(test_device(), style);
+    const auto told = [&]
+    {
+        simulation.set_style(style);
+        simulation.solver().draw();
+        return frame_input(simulation, camera_of(simulation.params())).colors;
+    };
+    EXPECT_TRUE(std::ranges::all_of(told().value, [](float v) { return v == 0.0f; }));
+    for (const char* area : {"top", "left"})
+    {
+        style.host.regions.emplace_back().name = area;
+        style.host.regions.back().where = {area};
+    }
+    const StrandColors regions = told();
+    EXPECT_EQ(regions.readings, (std::vector<std::string>{"none", "top", "left"}));
+    for (const float place : {0.0f, 0.5f, 1.0f})
+        EXPECT_GT(std::ranges::count(regions.value, place), 100) << place;
+    assign(style, "render.colors=map");
+    style.host.maps = {{"strand.length", MAP_OFFSET, {}, {}}};
+    for (const glm::vec3& p : simulation.assets().scalp.positions)
+        style.host.maps[0].values.push_back(p.x);
+    const StrandColors map = told();
+    EXPECT_EQ(map.title, "map of strand.length");
+    EXPECT_EQ(std::ranges::max(map.value), 1.0f);
+    EXPECT_EQ(std::ranges::min(map.value), 0.0f);
+    const Groom& groom = simulation.solver().groom();
+    for (size_t i = 0; i < groom.drawn.size(); i += 50)
+        EXPECT_GT((map.value[i * size_t(groom.nodes)] - 0.5f) * groom.drawn[i].root.x, -0.01f) << i;
+}
+
 TEST(StrandColors, of_stretch_are_those_of_the_guides)
 {
     Simulation simulation(test_device(), style_with("stretch"));

@@ -323,6 +323,14 @@ TEST(Shaping, a_group_of_the_scalps_file_is_a_region)
     EXPECT_FLOAT_EQ(region_weight(shaping, 0, {{}, {1, 3, 3}, {0.25f, 0.5f, 0.25f}}), 0.25f);
 }
 
+TEST(Shaping, as_many_values_as_are_kept_in_the_file_can_be_read_again)
+{
+    Hairstyle style;
+    for (const char* of : {"strand.length", "root.lift", "look.width"})
+        style.host.maps.push_back({of, MAP_OFFSET, std::vector<float>(4096, 0.125f), {}});
+    EXPECT_EQ(parse_hairstyle(hairstyle_text(style, "a.toml"), "a.toml").host.maps, style.host.maps);
+}
+
 TEST(Shaping, lists_are_written_as_they_were_read)
 {
     const Hairstyle style = parsed(kThree);
