@@ -61,9 +61,9 @@ static inline void cut_strands(const Points* full, real cut, Points* node)
 // light that reaches them in w.
 static inline void finish_strands(const Points* full, const int* strand, global const DrawnStrand* strands,
                                   global const StrandLook* looks, global float4* drawn_position,
-                                  global const float* depth,
-                                  global const float* body_distance, global const float4* body_way,
-                                  constant Capsule* colliders, constant HairParams* params, constant StepInfo* info
+                                  global const float* depth, global const float* body_distance,
+                                  global const float4* body_way, constant Capsule* colliders,
+                                  constant HairParams* params, constant StepInfo* info
 #ifdef BRAIDED
                                   ,
                                   const BraidedLanes* braid
