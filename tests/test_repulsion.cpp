@@ -31,10 +31,13 @@ class Repulsion : public testing::Test
         }
         return both / own;
     }
-    // On a ball, so that its bounds say nothing of whichever head coif ships.
+    // A bob on a ball: its bounds say nothing of whichever head and presets coif ships.
     static Hairstyle on_ball()
     {
-        Hairstyle style = load_hairstyle(find_style("bob"));
+        Hairstyle style;
+        for (const char* set : {"strand.length=0.185", "strand.length_variation=0.1", "root.lift=87",
+                                "root.crown=[0.25, 0.65, 0.7]", "root.part=0", "bending.attenuation=1"})
+            assign(style, set);
         style.host.scalp_mesh = COIF_SOURCE_FOLDER "/tests/reference/ball_scalp.obj";
         style.host.head_mesh = style.host.head_spheres = "";
         return style;
