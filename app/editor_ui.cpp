@@ -148,7 +148,7 @@ void Editor::draw_tools()
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("ctrl-z; redo: ctrl-shift-z; all that was done: u");
     ImGui::SameLine();
-    if (ImGui::Button("Reset hair"))
+    if (ImGui::Button("Reset"))
         reset_hair();
     ImGui::SameLine();
     if (ImGui::Button("Keep camera"))
