@@ -157,9 +157,11 @@ void Editor::reload_style()
     guarded(
         [&]
         {
-            const Hairstyle fresh = load_hairstyle(style_.file);
+            Hairstyle fresh = load_hairstyle(style_.file);
+            if (fresh.variants.contains(saved_.variant))
+                switch_variant(fresh, saved_.variant);
             const bool came_back = std::exchange(gone_, false);
-            if (difference(saved_, fresh).empty()) // but for its comments
+            if (same_style(saved_, fresh)) // but for its comments
             {
                 style_.text = fresh.text;
                 style_.places = fresh.places;
@@ -170,7 +172,7 @@ void Editor::reload_style()
                 if (came_back)
                     say(style_.file.string() + " is back");
             }
-            else if (!difference(saved_, style_).empty())
+            else if (!same_style(saved_, style_))
                 theirs_ = fresh;
             else
                 take_theirs(fresh);

@@ -146,6 +146,8 @@ std::string hairstyle_text(const Hairstyle& style, const fs::path& target)
     for (const auto& [name, settings] : variants)
     {
         const auto old = written.variants.find(name);
+        if (old == written.variants.end() && settings.empty())
+            edits.push_back({"variant", name, "{}"});
         const std::vector<Setting> before = old == written.variants.end() ? std::vector<Setting>{} : old->second;
         const auto same_group = [](const ParamInfo* info)
         { return [info](const Setting& s) { return s.info->group == std::string_view(info->group); }; };
@@ -175,25 +177,35 @@ std::string hairstyle_text(const Hairstyle& style, const fs::path& target)
 }
 
 // What a style keeps in files beside it, given names where it has none yet: file and bytes of what is not there as it
-// should be. A file that another style may share is not written over: it is kept under a name of this one's own.
+// should be. Only what was this style's own is written over: a file of another's stays, and saved elsewhere a style
+// takes copies along.
 static std::vector<std::pair<fs::path, std::string>> side_files(Hairstyle& style, const fs::path& target)
 {
     std::vector<std::pair<fs::path, std::string>> files;
     const fs::path folder = target.parent_path();
-    const auto keep = [&](std::string& name, const std::string& own, const std::string& bytes)
+    const std::string stem = target.stem().string();
+    std::error_code error;
+    const bool same_style = fs::equivalent(style.file, target, error) && !error;
+    const auto taken = [&](const std::string& name)
     {
-        std::error_code error;
-        if (!name.empty() && fs::is_regular_file(folder / name, error) && read_file(folder / name) == bytes)
+        return fs::exists(fs::symlink_status(folder / name, error)) ||
+               std::ranges::any_of(files, [&](const auto& file) { return file.first == folder / name; });
+    };
+    const auto keep = [&](std::string& name, const std::string& kind, const std::string& bytes)
+    {
+        if (same_style && !name.empty() && fs::is_regular_file(folder / name, error) &&
+            read_file(folder / name) == bytes)
             return;
-        name = own;
+        const bool own = same_style && name.starts_with(stem + ".") && name.ends_with(kind);
+        for (int n = 1; !own && (n == 1 || taken(name)); ++n)
+            name = fmt::format("{}.{}{}", stem, n > 1 ? fmt::format("{}.", n) : "", kind);
         files.emplace_back(folder / name, bytes);
     };
-    const std::string stem = target.stem().string();
     if (StoredShape& rest = style.host.groom_rest; rest.shapes)
-        keep(rest.file, stem + ".rest", shapes_text(*rest.shapes));
+        keep(rest.file, "rest", shapes_text(*rest.shapes));
     for (ScalpMap& map : style.host.maps)
         if (map.values.size() > kMostInline || !map.file.empty())
-            keep(map.file, stem + "." + map.of + ".map", map_values_text(map.values));
+            keep(map.file, map.of + ".map", map_values_text(map.values));
     return files;
 }
 
@@ -204,8 +216,9 @@ void save_hairstyle(Hairstyle& style, const fs::path& target)
         write_file(file, bytes);
     const std::string text = hairstyle_text(named, target);
     Hairstyle saved = parse_hairstyle(text, target); // what was written is what will be read
+    if (saved.variants.contains(style.variant))
+        switch_variant(saved, style.variant);
     write_file(target, text);
-    switch_variant(saved, style.variant);
     style = std::move(saved);
 }
 

@@ -73,6 +73,21 @@ TEST(Variant, a_snapshot_keeps_the_sliders_and_leaves_the_style_as_it_was_writte
     EXPECT_NE(error_of([&] { take_variant(style, ""); }).find("cannot be a variant's name"), std::string::npos);
 }
 
+TEST(Variant, a_snapshot_of_nothing_new_is_kept_too_and_can_be_saved_while_it_is_on)
+{
+    Scratch scratch;
+    Hairstyle style = load_hairstyle(scratch.write("a.toml", kTwo));
+    take_variant(style, "same");
+    save_hairstyle(style, scratch / "a.toml");
+    EXPECT_EQ(style.variant, "same");
+    assign(style, "strand.length=0.5");
+    save_hairstyle(style, scratch / "a.toml");
+    Hairstyle again = load_hairstyle(scratch / "a.toml");
+    EXPECT_EQ(again.params.strand_length, 0.16f);
+    switch_variant(again, "same");
+    EXPECT_EQ(again.params.strand_length, 0.5f);
+}
+
 TEST(Variant, what_is_wrong_in_one_is_told_with_its_place)
 {
     const std::pair<const char*, const char*> broken[] = {
@@ -186,6 +201,33 @@ TEST(StrandShapes, a_save_keeps_them_beside_the_style_and_never_writes_over_anot
     fs::remove(scratch / "a.rest");
     save_hairstyle(style, scratch / "other" / "b.toml");
     EXPECT_EQ(*load_hairstyle(scratch / "other" / "b.toml").host.groom_rest.shapes, some_shapes(252, 5));
+}
+
+TEST(StrandShapes, copies_and_namesakes_have_files_of_their_own)
+{
+    Scratch scratch;
+    Hairstyle style;
+    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(252, 4));
+    // Two maps of one parameter, too.
+    style.host.maps = {{"root.lift", MAP_FACTOR, std::vector<float>(5000, 2.0f), {}},
+                       {"root.lift", MAP_OFFSET, std::vector<float>(5000, 3.0f), {}}};
+    save_hairstyle(style, scratch / "a.toml");
+    Hairstyle copy = style;
+    save_hairstyle(copy, scratch / "b.toml");
+    style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(252, 6));
+    save_hairstyle(style, scratch / "a.toml");
+    EXPECT_EQ(style.host.groom_rest.file, "a.rest") << "its own is written over";
+    const HostParams other = load_hairstyle(scratch / "b.toml").host;
+    EXPECT_EQ(*other.groom_rest.shapes, some_shapes(252, 4)) << "and not the copy's";
+    EXPECT_EQ(other.maps.at(0).values, std::vector<float>(5000, 2.0f));
+    EXPECT_EQ(other.maps.at(1).values, std::vector<float>(5000, 3.0f));
+    // Renamed, it goes on with its file; a new one of the old name takes another.
+    fs::rename(scratch / "a.toml", scratch / "c.toml");
+    Hairstyle fresh;
+    fresh.host.groom_rest.shapes = std::make_shared<const StrandShapes>(some_shapes(252, 5));
+    save_hairstyle(fresh, scratch / "a.toml");
+    EXPECT_EQ(fresh.host.groom_rest.file, "a.2.rest");
+    EXPECT_EQ(*load_hairstyle(scratch / "c.toml").host.groom_rest.shapes, some_shapes(252, 6));
 }
 
 TEST(StrandShapes, large_maps_lie_in_files_of_their_own)
