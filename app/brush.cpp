@@ -62,9 +62,10 @@ static bool painted(const ScalpMap& map)
     return false;
 }
 
-// Moves a number, as it is at each vertex, towards `aim`.
+// Moves a number, as it is at each vertex, towards what `aim_at` says of that vertex.
+template <typename Aim>
 static bool paint_number(Hairstyle& style, const char* of, const Scalp& scalp, const std::vector<float>& weights,
-                         float aim)
+                         Aim aim_at)
 {
     ScalpMap& map = painted_map(style, of, scalp);
     const ParamInfo& info = *find_param(of);
@@ -77,7 +78,8 @@ static bool paint_number(Hairstyle& style, const char* of, const Scalp& scalp, c
         float now[4];
         get_numbers(params_at(shaping, at_vertex(scalp, v)), info, now);
         // Whole within what can be seen, so that a stroke comes to an end.
-        const float span = info.max - info.min, by = weights[v] * (std::clamp(aim, info.min, info.max) - now[0]);
+        const float span = info.max - info.min;
+        const float by = weights[v] * (std::clamp(float(aim_at(v)), info.min, info.max) - now[0]);
         if (std::abs(by) > 1e-6f * span)
             map.values[v] = std::clamp(map.values[v] + by, -1000.0f, 1000.0f);
     }
@@ -257,6 +259,7 @@ static bool lift_rest(Hairstyle& style, const Scalp& scalp, const std::vector<fl
 bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shapes, const Brush& brush,
                  const Touch& touch)
 {
+    const auto all = [](float aim) { return [aim](size_t) { return aim; }; };
     bool changed = false;
     for (const float side : {1.0f, -1.0f})
     {
@@ -274,20 +277,20 @@ bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shape
             changed |= comb(style, scalp, shapes, weights, touch.along * mirrored);
             break;
         case BrushKind::LENGTH:
-            changed |= paint_number(style, "strand.length", scalp, weights, brush.length);
+            changed |= paint_number(style, "strand.length", scalp, weights, all(brush.length));
             break;
         case BrushKind::LIFT:
             if (style.host.groom_rest.shapes && rest_of(style, scalp, {}))
                 changed |= lift_rest(style, scalp, weights, brush.lift);
             else
-                changed |= paint_number(style, "root.lift", scalp, weights, brush.lift);
+                changed |= paint_number(style, "root.lift", scalp, weights, all(brush.lift));
             break;
         case BrushKind::WAVE:
-            changed |= paint_number(style, "wave.normal_amplitude", scalp, weights, brush.wave);
-            changed |= paint_number(style, "wave.binormal_amplitude", scalp, weights, brush.wave);
+            changed |= paint_number(style, "wave.normal_amplitude", scalp, weights, all(brush.wave));
+            changed |= paint_number(style, "wave.binormal_amplitude", scalp, weights, all(brush.wave));
             break;
         case BrushKind::DENSITY:
-            changed |= paint_number(style, "interpolation.density", scalp, weights, brush.density);
+            changed |= paint_number(style, "interpolation.density", scalp, weights, all(brush.density));
             break;
         case BrushKind::COLOR:
             if (brush.color_of != 1)
@@ -311,34 +314,22 @@ bool cut_at_plane(Hairstyle& style, const Scalp& scalp, const StrandShapes& shap
     if (size_t(shapes.strands()) != scalp.positions.size())
         return false;
     const size_t nodes = size_t(shapes.nodes);
-    std::vector<std::pair<size_t, float>> cuts; // vertex, m
+    std::vector<float> cut(scalp.positions.size(), 0.0f), lengths = cut; // 1 where there is a cut; m
     for (size_t v = 0; v < scalp.positions.size(); ++v)
     {
         const glm::vec3* p = &shapes.position[v * nodes];
-        float length = 0.0f;
-        for (size_t k = 2; k < nodes; ++k)
+        for (size_t k = 2; k < nodes && cut[v] == 0.0f; ++k)
         {
             const float before = glm::dot(n, p[k - 1]) - d, after = glm::dot(n, p[k]) - d;
-            const float segment = glm::distance(p[k], p[k - 1]);
-            if (after > 0.0f)
-            {
-                cuts.emplace_back(v, length + segment * std::clamp(before / (before - after), 0.0f, 1.0f));
-                break;
-            }
-            length += segment;
+            const bool beyond = after > 0.0f;
+            cut[v] = beyond ? 1.0f : 0.0f;
+            lengths[v] +=
+                glm::distance(p[k], p[k - 1]) * (beyond ? std::clamp(before / (before - after), 0.0f, 1.0f) : 1.0f);
         }
     }
-    if (cuts.empty())
+    if (std::ranges::none_of(cut, [](float c) { return c > 0.0f; }))
         return false;
-    std::vector<float> one(scalp.positions.size(), 0.0f);
-    bool changed = false;
-    for (const auto& [v, length] : cuts)
-    {
-        one[v] = 1.0f;
-        changed |= paint_number(style, "strand.length", scalp, one, length);
-        one[v] = 0.0f;
-    }
-    return changed;
+    return paint_number(style, "strand.length", scalp, cut, [&](size_t v) { return lengths[v]; });
 }
 
 void pick_value(Brush& brush, const Hairstyle& style, const Scalp& scalp, glm::vec3 at)

@@ -99,6 +99,17 @@ fs::path duplicate_hairstyle(const fs::path& file, const std::string& name)
 {
     const fs::path place = free_place(file.parent_path(), name);
     make(place, read_file(file, 4 << 20));
+    try
+    {
+        Hairstyle style = load_hairstyle(file);
+        if (style.host.groom_rest.shapes ||
+            std::ranges::any_of(style.host.maps, [](const ScalpMap& map) { return !map.file.empty(); }))
+            save_hairstyle(style, place); // with copies of what lies beside it
+    }
+    catch (const Error&)
+    {
+        // A broken one is copied as it is.
+    }
     return place;
 }
 

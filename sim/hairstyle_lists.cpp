@@ -13,18 +13,6 @@ namespace fs = std::filesystem;
 
 static std::string plural(const ParamInfo& info) { return std::string(info.group) + "s"; }
 
-static std::vector<std::string> split_labels(std::string_view labels)
-{
-    std::vector<std::string> all;
-    for (size_t begin = 0; begin <= labels.size();)
-    {
-        const size_t end = std::min(labels.find('|', begin), labels.size());
-        all.emplace_back(labels.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return all;
-}
-
 Setting read_setting(const fs::path& file, const std::string& path, const toml::key& key, const toml::node& node)
 {
     const ParamInfo* info = find_param(path);

@@ -111,10 +111,9 @@ std::string nearest_param(std::string_view path)
     return best;
 }
 
-std::vector<std::string> param_labels(const ParamInfo& info)
+std::vector<std::string> split_labels(std::string_view all)
 {
     std::vector<std::string> labels;
-    const std::string_view all = info.labels;
     for (size_t begin = 0; begin <= all.size();)
     {
         const size_t end = std::min(all.find('|', begin), all.size());
@@ -123,6 +122,8 @@ std::vector<std::string> param_labels(const ParamInfo& info)
     }
     return labels;
 }
+
+std::vector<std::string> param_labels(const ParamInfo& info) { return split_labels(info.labels); }
 
 void get_numbers(const HairParams& params, const ParamInfo& info, float out[kMostNumbers])
 {

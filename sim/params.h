@@ -116,6 +116,9 @@ const ParamInfo* find_param(std::string_view path);
 // The known path that is fewest edits (Levenshtein 1966) away from `path`.
 std::string nearest_param(std::string_view path);
 
+// "a|b" -> a, b.
+std::vector<std::string> split_labels(std::string_view labels);
+
 // The labels of a CHOICE, in order.
 std::vector<std::string> param_labels(const ParamInfo& info);
 
