@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/advise/advise.h"
+#include "app/bench/bench.h"
 #include "app/editor.h"
 #include "app/film.h"
 #include "app/lab.h"
@@ -210,6 +211,16 @@ int run_command(int argc, char** argv)
         ->delimiter(',');
     measure_command->add_option("-o,--output", options.output, "Folder to write into (default: measure)");
 
+    BenchOptions benched;
+    CLI::App* bench_command =
+        with_device(app.add_subcommand("bench", "Time every pass, against the machine's limits and the thesis' own way"));
+    bench_command->add_flag("--quick", benched.quick, "Fewer repeats and sizes");
+    bench_command->add_option("--only", benched.only, "Scenes to run, separated by commas: head,thesis")
+        ->delimiter(',');
+    CLI::Option* bench_json = bench_command->add_flag("--json", benched.json, "One JSON object instead of the table");
+    bench_command->add_flag("--csv", benched.csv, "CSV instead of the table")->excludes(bench_json);
+    bench_command->add_option("-o,--output", options.output, "Folder to write into (default: bench)");
+
     CLI::App* check_command = app.add_subcommand("check", "Validate hairstyle files and what they name");
     check_command->add_option("STYLE", styles, "Hairstyle files")->required();
     CLI::App* keys_command = app.add_subcommand("keys", "List everything a hairstyle can say");
@@ -290,6 +301,8 @@ int run_command(int argc, char** argv)
         return advise(options, advised);
     if (measure_command->parsed())
         return measure(options, measured);
+    if (bench_command->parsed())
+        return bench(options, benched);
     if (stress_command->parsed())
         return run_stress(options, strained);
     if (check_command->parsed())

@@ -1,5 +1,6 @@
 #include "app/strand_colors.h"
 
+#include "sim/scatter.h"
 #include "sim/shaping.h"
 
 #include <fmt/format.h>
@@ -148,7 +149,7 @@ static void tell_kind(StrandColors& colors, const Groom& groom)
 // A style over its scalp, as its guides stand on it.
 template <typename Tell> static void tell_of_roots(StrandColors& colors, const Simulation& simulation, Tell tell)
 {
-    const Scalp scalp = refined(simulation.assets().scalp, simulation.params().interpolation_refine);
+    const Scalp scalp = guide_scalp(simulation.assets().scalp, simulation.params());
     const Shaping shaping = shape_over(simulation.params(), simulation.style().host, simulation.assets().scalp, scalp);
     std::vector<float> of_guide;
     for (size_t g = 0; g < scalp.positions.size(); ++g)

@@ -107,6 +107,9 @@ Kernel load_kernel(const Device& device, const std::string& file, const std::str
         {
             std::string argument = kernel.handle.getArgInfo<CL_KERNEL_ARG_NAME>(i);
             kernel.arguments.push_back(argument.c_str()); // some drivers count the final zero
+            kernel.writes.push_back(
+                kernel.handle.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL &&
+                !(kernel.handle.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(i) & CL_KERNEL_ARG_TYPE_CONST));
         }
     }
     catch (const cl::Error& e)

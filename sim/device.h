@@ -22,6 +22,7 @@ struct Kernel
     std::string name;
     cl::Kernel handle;
     std::vector<std::string> arguments;
+    std::vector<bool> writes; // to which of them it may write
 };
 
 // Bands before and behind every buffer that nothing may write to: what a kernel does outside of a buffer is seen.

@@ -2,6 +2,7 @@
 
 #include "sim/clumps.h"
 #include "sim/material.h"
+#include "sim/scatter.h"
 #include "sim/shaping.h"
 
 #include <glm/geometric.hpp>
@@ -21,10 +22,7 @@ enum Channel
 {
     kLift,
     kSweep,
-    kTriangle,
-    kWeightA,
-    kWeightB,
-    kCut,
+    kCut = 5, // from 2 on: spread_places()
     kStrandSeed,
     kTurn, // and upwards: one pair of channels for each of eight tries
     kKeep = kTurn + 16,
@@ -186,33 +184,14 @@ static void grow_multi(Groom& groom, Ground& ground, int count)
 {
     const HairParams& p = ground.shaping.params;
     const Scalp& scalp = ground.shaping.scalp;
-    std::vector<double> area_up_to;
-    double area = 0.0;
-    for (const glm::uvec3& t : scalp.triangles)
-    {
-        const glm::vec3 a = scalp.positions[t.x];
-        area += glm::length(glm::cross(scalp.positions[t.y] - a, scalp.positions[t.z] - a));
-        area_up_to.push_back(area);
-    }
+    const std::vector<Between> places = spread_places(scalp, count, p.interpolation_seed);
     for (int i = 0; i < count; ++i)
     {
-        // Stratified over the area, so that triangles of equal size get equal numbers.
-        const double at = (i + double(random01(p.interpolation_seed, i, kTriangle))) / count * area;
-        const size_t found = size_t(std::upper_bound(area_up_to.begin(), area_up_to.end(), at) - area_up_to.begin());
-        const glm::uvec3 t = scalp.triangles[std::min(found, scalp.triangles.size() - 1)];
-        // Uniform over the triangle: points of the parallelogram's other half are folded back (thesis, listing 5.4).
-        float b = random01(p.interpolation_seed, i, kWeightA), c = random01(p.interpolation_seed, i, kWeightB);
-        if (b + c > 1.0f)
-        {
-            b = 1.0f - b;
-            c = 1.0f - c;
-        }
-        const glm::vec3 weights(1.0f - b - c, b, c);
-        const glm::vec3 root =
-            scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z;
-        const ScalpPlace place = {root, t, weights};
-        glm::uvec3 guides = t;
-        glm::vec3 shares = weights;
+        glm::uvec3 guides = places[size_t(i)].of;
+        glm::vec3 shares = places[size_t(i)].shares;
+        const glm::vec3 root = scalp.positions[guides.x] * shares.x + scalp.positions[guides.y] * shares.y +
+                               scalp.positions[guides.z] * shares.z;
+        const ScalpPlace place = {root, guides, shares};
         if (ground.varied)
             keep_to_own_side(scalp, ground.sides, sides_at(ground.shaping, place), root, guides, shares);
         add_drawn(groom, ground, mixed_of(ground.directions, guides, shares), place, i);
@@ -296,6 +275,17 @@ static void grow_single(Groom& groom, Ground& ground, int count, int first)
     }
 }
 
+// Each drawn strand is a guide of its own, unturned.
+static void grow_all(Groom& groom, Ground& ground, int count)
+{
+    for (int i = 0; i < count; ++i)
+    {
+        DrawnStrand strand = {};
+        strand.guide0 = strand.guide1 = strand.guide2 = int(long(i) * groom.guides / count);
+        add_drawn(groom, ground, strand, at_vertex(ground.shaping.scalp, size_t(strand.guide0)), i);
+    }
+}
+
 // A guide's curl, if it is one of the strand's own shape.
 struct Curl
 {
@@ -367,7 +357,7 @@ static bool curls_differ(const HairParams& p)
 
 Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
 {
-    const Scalp scalp = refined(authored, p.interpolation_refine);
+    const Scalp scalp = guide_scalp(authored, p);
     const Shaping shaping = shape_over(p, host, authored, scalp);
     Ground ground{shaping, varies(host), {}, {}, {}, {}};
     Groom groom;
@@ -440,12 +430,16 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
     if (host.groom_rest.shapes)
         take_shapes(groom, *host.groom_rest.shapes, scalp, p.head_scale);
 
+    const bool all = p.interpolation_guides == GUIDES_ALL;
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
-    const int multi = p.interpolation_strands - single;
+    const int multi = all ? 0 : p.interpolation_strands - single;
     groom.drawn.reserve(size_t(p.interpolation_strands));
     grow_multi(groom, ground, multi);
     groom.drawn_multi = int(groom.drawn.size());
-    grow_single(groom, ground, single, multi);
+    if (all)
+        grow_all(groom, ground, p.interpolation_strands);
+    else
+        grow_single(groom, ground, single, multi);
     for (size_t i = 0; i < groom.drawn.size(); ++i)
     {
         groom.drawn[i].leader = int(i);

@@ -19,6 +19,13 @@ struct Mesh
     std::vector<glm::uvec3> triangles;
 };
 
+// Where a vertex lies between three others, in these shares (whose sum is 1).
+struct Between
+{
+    glm::uvec3 of{0};
+    glm::vec3 shares{1.0f, 0.0f, 0.0f};
+};
+
 // A scalp: vertex i carries guide i.
 struct Scalp : Mesh
 {
@@ -26,7 +33,7 @@ struct Scalp : Mesh
     float radius = 0.0f;                                 // of that sphere, m
     float extent = 0.0f;                                 // longest side of the vertices' bounding box, m
     std::map<std::string, std::vector<unsigned>> groups; // of the file: name -> vertices of its triangles
-    std::vector<glm::uvec2> between; // of a refined one: each vertex after the authored ones lies between these two
+    std::vector<Between> between; // of each vertex after the authored ones; only of those before it
 };
 
 constexpr size_t kMostVertices = 65536; // of a scalp
@@ -39,6 +46,10 @@ Scalp load_scalp(const std::filesystem::path& file);
 // Vertices keep their numbers, new ones follow. Throws Error when that would be more than 65,536 of them.
 Scalp refined(const Scalp& scalp, int times);
 int most_refinements(const Scalp& scalp); // that refined() takes, and interpolation.refine
+
+// The scalp with a vertex more at each of these places between its own, as round as its normals say. Its triangles stay
+// as they are.
+Scalp strewn(const Scalp& scalp, const std::vector<Between>& places);
 
 // A mesh as its file counts.
 struct FileMesh : Mesh

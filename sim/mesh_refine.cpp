@@ -1,4 +1,4 @@
-// A scalp's triangles cut in four, as round as they stand for.
+// A scalp's triangles cut in four or strewn with vertices, as round as they stand for.
 #include "sim/error.h"
 #include "sim/mesh.h"
 
@@ -105,7 +105,7 @@ Scalp refined(const Scalp& scalp, int times)
             if (fresh)
             {
                 fine.positions.push_back(curved_middle(fine, round, a, b));
-                fine.between.emplace_back(a, b);
+                fine.between.push_back({{a, b, b}, {0.5f, 0.5f, 0.0f}});
             }
             return found->second;
         };
@@ -120,6 +120,31 @@ Scalp refined(const Scalp& scalp, int times)
         fine.normals.insert(fine.normals.end(), normals.begin() + long(fine.normals.size()), normals.end());
     }
     return fine;
+}
+
+// What curved_middle() does at a side's middle, anywhere on a triangle. Boubekeur, Alexa, Phong Tessellation, 2008.
+Scalp strewn(const Scalp& scalp, const std::vector<Between>& places)
+{
+    Scalp more = scalp;
+    const std::vector<glm::vec3> round = round_normals(scalp);
+    for (const Between& place : places)
+    {
+        glm::vec3 flat(0.0f), normal(0.0f), lift(0.0f);
+        for (int k = 0; k < 3; ++k)
+        {
+            flat += place.shares[k] * scalp.positions[place.of[k]];
+            normal += place.shares[k] * scalp.normals[place.of[k]];
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+            const glm::vec3 own = round[place.of[k]];
+            lift += place.shares[k] * glm::dot(scalp.positions[place.of[k]] - flat, own) * own;
+        }
+        more.positions.push_back(flat + 0.5f * lift);
+        more.normals.push_back(unit_or(normal, scalp.normals[place.of[0]]));
+        more.between.push_back(place);
+    }
+    return more;
 }
 
 } // namespace coif

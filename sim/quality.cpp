@@ -1,6 +1,7 @@
 #include "sim/quality.h"
 
 #include "sim/error.h"
+#include "sim/scatter.h"
 
 #include <glm/geometric.hpp>
 
@@ -214,7 +215,8 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     quality.node_error = error_of_links(p.strand_nodes - 2);
 
     // Each refinement of the scalp has about four times as many guides.
-    const bool guides_pinned = pinned(style, "interpolation.refine");
+    const bool all = p.interpolation_guides == GUIDES_ALL; // nothing is between
+    const bool guides_pinned = all || pinned(style, "interpolation.refine");
     const int vertices = int(scalp.positions.size());
     const double of_guides = std::max(tolerance, error_of_links(kMostNodes - 2)); // guides never move better than that
     const int most = guides_pinned ? p.interpolation_refine : most_refinements(scalp);
@@ -222,7 +224,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
            error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > of_guides)
         ++p.interpolation_refine;
     const Groom groom = grow(p, scalp, style.host);
-    quality.guide_error = error_of_guides(p, scalp, groom.guides);
+    quality.guide_error = all ? 0.0 : error_of_guides(p, scalp, groom.guides);
     note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
     const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");
     HairParams probed = alone(p);

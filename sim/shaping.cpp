@@ -45,9 +45,11 @@ bool varies(const HostParams& host) { return !host.maps.empty() || !host.regions
 // Values of the authored scalp's vertices for those of the refined one, which follow them.
 static std::vector<float> refined_values(const Scalp& scalp, std::vector<float> values, size_t of_each)
 {
-    for (const glm::uvec2& between : scalp.between)
+    for (const Between& between : scalp.between)
         for (size_t i = 0; i < of_each; ++i)
-            values.push_back(0.5f * (values[between.x * of_each + i] + values[between.y * of_each + i]));
+            values.push_back(between.shares.x * values[between.of.x * of_each + i] +
+                             between.shares.y * values[between.of.y * of_each + i] +
+                             between.shares.z * values[between.of.z * of_each + i]);
     return values;
 }
 

@@ -71,8 +71,9 @@ class Solver
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
     PassTimes take_times();
 
-    // For tests: buffers by kernel argument.
+    // For tests and measuring: buffers by kernel argument; kernels in use, by file and options.
     const Buffers& buffers() const { return buffers_; }
+    const std::map<std::string, Kernel>& kernels() const { return kernels_; }
 
   private:
     const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }

@@ -95,9 +95,11 @@ void take_shapes(Groom& groom, const StrandShapes& shapes, const Scalp& scalp, f
     for (size_t s = 0; s < authored; ++s)
         for (size_t k = 0; k < nodes; ++k)
             all.push_back((shapes.position[s * nodes + k] - shapes.position[s * nodes + 1]) * head_scale);
-    for (const glm::uvec2& between : scalp.between)
+    for (const Between& between : scalp.between)
         for (size_t k = 0; k < nodes; ++k)
-            all.push_back(0.5f * (all[between.x * nodes + k] + all[between.y * nodes + k]));
+            all.push_back(between.shares.x * all[between.of.x * nodes + k] +
+                          between.shares.y * all[between.of.y * nodes + k] +
+                          between.shares.z * all[between.of.z * nodes + k]);
 
     groom.hold = 1.0f;
     groom.rest_position.assign(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3, 0.0f);

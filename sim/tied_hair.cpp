@@ -1,6 +1,7 @@
 #include "sim/tied_hair.h"
 
 #include "sim/error.h"
+#include "sim/scatter.h"
 #include "sim/shaping.h"
 
 #include <glm/geometric.hpp>
@@ -455,7 +456,8 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
         DrawnStrand strand = groom.drawn[i];
         const bool copy = int(i) >= groom.drawn_multi;
         const int own = tied[size_t(strand.guide0)].tie;
-        if (copy && (own < 0 || triangles[size_t(strand.guide0)].empty()))
+        const bool all = params.interpolation_guides == GUIDES_ALL; // its own guide is all that it is made of
+        if (copy && (own < 0 || (!all && triangles[size_t(strand.guide0)].empty())))
         {
             copies.push_back(strand);
             copied_from.push_back(int(i));
@@ -463,7 +465,9 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
                 copied_looks.push_back(groom.looks[i]);
             continue;
         }
-        if (copy)
+        if (copy && all)
+            strand.weights = F4(1.0f, 0.0f, 0.0f, strand.weights.w);
+        else if (copy)
             strand = mixed_copy(strand, scalp, triangles[size_t(strand.guide0)], directions, params, int(i));
         const bool known = !roots.drawn.empty() && !copy;
         if (!known || !mix_within(strand, tied, roots.drawn[i]))
@@ -533,7 +537,7 @@ TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParam
             }
         return found;
     };
-    const Scalp scalp = refined(authored, params.interpolation_refine);
+    const Scalp scalp = guide_scalp(authored, params);
     const Shaping shaping = shape_over(params, host, authored, scalp);
     const auto gathers = [&](size_t tie, const ScalpPlace& place)
     {
@@ -573,7 +577,7 @@ void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, con
 {
     if (ties.empty())
         return;
-    const Scalp scalp = refined(authored, params.interpolation_refine);
+    const Scalp scalp = guide_scalp(authored, params);
     if (groom.natural_position.empty())
         say_natural(groom);
     groom.held.assign(size_t(groom.blocks) * LANES, 2);

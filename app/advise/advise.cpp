@@ -3,6 +3,7 @@
 #include "app/advise/lean.h"
 #include "app/progress.h"
 #include "sim/error.h"
+#include "sim/scatter.h"
 #include "sim/source.h"
 
 #include <glm/geometric.hpp>
@@ -138,7 +139,9 @@ Advice advise_on(const Trial& trial, const Hairstyle& style)
     advice.base = style;
     const Assets assets = load_assets(style);
     advice.guides = grow(style.params, assets.scalp, style.host).guides;
-    advice.guide_error = error_of_guides(style.params, assets.scalp, advice.guides);
+    advice.guide_error = style.params.interpolation_guides == GUIDES_ALL
+                             ? 0.0
+                             : error_of_guides(style.params, assets.scalp, advice.guides);
     measure_features(trial, advice);
     go_further(trial, advice);
     put_together(trial, advice);

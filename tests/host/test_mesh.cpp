@@ -146,7 +146,7 @@ TEST(Scalp, refined_stays_on_the_head)
         float curved = 0.0f, straight = 0.0f;
         for (size_t v = scalp.positions.size(); v < fine.positions.size(); v += 7)
         {
-            const glm::uvec2 between = fine.between[v - scalp.positions.size()];
+            const glm::uvec3 between = fine.between[v - scalp.positions.size()].of;
             curved = std::max(curved, off(fine.positions[v]));
             straight = std::max(straight, off(0.5f * (scalp.positions[between.x] + scalp.positions[between.y])));
         }

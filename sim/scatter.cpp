@@ -1,0 +1,57 @@
+#include "sim/scatter.h"
+
+#include "sim/groom.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace coif
+{
+
+// Streams of random numbers, among those of sim/groom.cpp.
+enum Channel
+{
+    kTriangle = 2,
+    kWeightA,
+    kWeightB
+};
+
+std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
+{
+    std::vector<double> area_up_to;
+    double area = 0.0;
+    for (const glm::uvec3& t : scalp.triangles)
+    {
+        const glm::vec3 a = scalp.positions[t.x];
+        area += glm::length(glm::cross(scalp.positions[t.y] - a, scalp.positions[t.z] - a));
+        area_up_to.push_back(area);
+    }
+    std::vector<Between> places;
+    for (int i = 0; i < count; ++i)
+    {
+        // Stratified over the area, so that triangles of equal size get equal numbers.
+        const double at = (i + double(random01(seed, i, kTriangle))) / count * area;
+        const size_t found = size_t(std::upper_bound(area_up_to.begin(), area_up_to.end(), at) - area_up_to.begin());
+        const glm::uvec3 t = scalp.triangles[std::min(found, scalp.triangles.size() - 1)];
+        // Uniform over the triangle: points of the parallelogram's other half are folded back.
+        float b = random01(seed, i, kWeightA), c = random01(seed, i, kWeightB);
+        if (b + c > 1.0f)
+        {
+            b = 1.0f - b;
+            c = 1.0f - c;
+        }
+        places.push_back({t, {1.0f - b - c, b, c}});
+    }
+    return places;
+}
+
+Scalp guide_scalp(const Scalp& authored, const HairParams& params)
+{
+    if (params.interpolation_guides != GUIDES_ALL)
+        return refined(authored, params.interpolation_refine);
+    const int more = params.interpolation_strands - int(authored.positions.size());
+    return strewn(authored, spread_places(authored, std::max(more, 0), params.interpolation_seed));
+}
+
+} // namespace coif

@@ -1,0 +1,26 @@
+// The places on a scalp that strands are grown at.
+#pragma once
+#include "sim/mesh.h"
+#include "sim/params.h"
+
+#include <vector>
+
+namespace coif
+{
+
+enum GuideChoice // interpolation.guides
+{
+    GUIDES_VERTICES,
+    GUIDES_ALL
+};
+
+// So many places spread over a scalp's triangles by area (thesis, listing 5.4). They hang on the scalp, their number
+// and the seed alone.
+std::vector<Between> spread_places(const Scalp& scalp, int count, int seed);
+
+// The scalp whose vertices carry the guides: the authored one refined as interpolation.refine says or, where all drawn
+// strands are simulated, with as many vertices strewn over it as there are strands. Authored vertices come first.
+// Throws Error as refined().
+Scalp guide_scalp(const Scalp& authored, const HairParams& params);
+
+} // namespace coif
