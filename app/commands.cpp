@@ -212,8 +212,8 @@ int run_command(int argc, char** argv)
     measure_command->add_option("-o,--output", options.output, "Folder to write into (default: measure)");
 
     BenchOptions benched;
-    CLI::App* bench_command =
-        with_device(app.add_subcommand("bench", "Time every pass, against the machine's limits and the thesis' own way"));
+    CLI::App* bench_command = with_device(
+        app.add_subcommand("bench", "Time every pass, against the machine's limits and the thesis' own way"));
     bench_command->add_flag("--quick", benched.quick, "Fewer repeats and sizes");
     bench_command->add_option("--only", benched.only, "Scenes to run, separated by commas: head,thesis")
         ->delimiter(',');

@@ -13,9 +13,9 @@ typedef struct HeadPose
     float4 row0, row1, row2;
 } HeadPose;
 
-static inline HeadPose head_pose(constant StepPath* path, int sixteenth)
+static inline HeadPose head_pose(constant StepPath* path, int part)
 {
-    const HeadPose pose = {path->row[3 * sixteenth], path->row[3 * sixteenth + 1], path->row[3 * sixteenth + 2]};
+    const HeadPose pose = {path->row[3 * part], path->row[3 * part + 1], path->row[3 * part + 2]};
     return pose;
 }
 
@@ -40,6 +40,11 @@ typedef struct Bodies
 #ifdef BODY_GRID
     global const float* grid; // distances to the head's mesh, distance_grid.h
     constant StepInfo* info;
+    // Where each node is when the step begins, and how far from the surface; the plane that this is nearby: unit normal
+    // and height. All in the head's frame.
+    Points start[NODES], normal[NODES];
+    real distance[NODES], level[NODES];
+    whole may_meet[NODES]; // in the step
 #endif
 } Bodies;
 
@@ -67,40 +72,87 @@ static inline real capsule_distance(constant Capsule* body, Points p, Points* aw
     return squared * inverse - radius;
 }
 
-static inline void nearer(real distance_to, Points away, real* nearest, Points* normal)
+#ifdef BODY_GRID
+// One look at the grid for each node, where it is when the step begins: its substeps go by that. A node goes `move` in
+// each of them at its speed, and would go `carried` if it went with the head's origin. What comes in all the same, for
+// the head has turned, is found at the step's end (walk_out).
+#define NEAR_BY 0.005f // m
+static inline void find_planes(Bodies* bodies, HeadPose begin, const Points* x, const Points* move, Points carried,
+                               int substeps)
 {
-    const whole is = distance_to < *nearest;
-    *nearest = select(*nearest, distance_to, is);
-    *normal = select_points(*normal, away, is);
+    const real twice = (real)(2.0f * (float)substeps);
+    for (int i = 2; i < NODES; ++i)
+    {
+        const Points p = into_head(begin, x[i]), way = times(twice, minus(move[i], carried));
+        const real distance = head_distance(bodies->grid, p, &bodies->normal[i], bodies->info);
+        const real room = distance - NEAR_BY;
+        bodies->start[i] = p;
+        bodies->distance[i] = distance;
+        bodies->level[i] = dot_lanes(bodies->normal[i], p) - distance;
+        bodies->may_meet[i] = room < 0.0f | !(dot_lanes(way, way) < room * room);
+    }
 }
 
-// Distance of p to the nearest body (m; negative inside, 1e9 where none is near), the unit vector away from it, and
-// whether it is a part of the head.
-static inline real nearest_body(const Bodies* bodies, HeadPose head, Points p, Points* normal, whole* on_head)
+// Nodes that went less far than the surface was away: it has not come nearer than by that, but for what interpolating
+// the grid makes of distances.
+static inline whole kept_clear(const Bodies* bodies, HeadPose head, int node, Points p)
 {
-    real nearest = (real)(1e9f);
-    Points out = points((real)(0.0f), (real)(1.0f), (real)(0.0f)), away;
-#ifdef BODY_GRID
-    const int of_the_head = 1;
-#else
-    const int of_the_head = bodies->near_head > 0;
+    const Points way = minus(into_head(head, p), bodies->start[node]);
+    const real distance = fmax(bodies->distance[node], (real)(0.0f));
+    return 2.0f * dot_lanes(way, way) < distance * distance;
+}
 #endif
-    if (of_the_head)
+
+// What of the bodies is nearest to a point.
+typedef struct Nearest
+{
+    real distance; // m; negative inside, 1e9 where nothing is near
+    Points away;   // unit vector, along the head's axes if that is a part of the head, else along the world's
+    whole on_head;
+} Nearest;
+
+static inline void nearer(Nearest* nearest, constant Capsule* body, Points p, whole on_head)
+{
+    Points away;
+    const real distance_to = capsule_distance(body, p, &away);
+    const whole is = distance_to < nearest->distance;
+    nearest->distance = select(nearest->distance, distance_to, is);
+    nearest->away = select_points(nearest->away, away, is);
+    nearest->on_head = select(nearest->on_head, on_head, is);
+}
+
+static inline Nearest nearest_capsule(const Bodies* bodies, HeadPose head, Points p)
+{
+    Nearest nearest = {(real)(1e9f), points((real)(0.0f), (real)(1.0f), (real)(0.0f)), (whole)(0)};
+    if (bodies->near_head > 0)
     {
-        const Points local_p = into_head(head, p);
-#ifdef BODY_GRID
-        nearest = head_distance(bodies->grid, local_p, &out, bodies->info);
-#endif
+        const Points in_head = into_head(head, p);
         for (int i = 0; i < bodies->near_head; ++i)
-            nearer(capsule_distance(bodies->all + bodies->near[i], local_p, &away), away, &nearest, &out);
-        out = turn_by(head.row0, head.row1, head.row2, out);
+            nearer(&nearest, bodies->all + bodies->near[i], in_head, (whole)(-1));
     }
-    const real of_head = nearest;
     for (int i = bodies->near_head; i < bodies->near_count; ++i)
-        nearer(capsule_distance(bodies->all + bodies->near[i], p, &away), away, &nearest, &out);
-    *normal = out;
-    *on_head = nearest == of_head;
+        nearer(&nearest, bodies->all + bodies->near[i], p, (whole)(0));
     return nearest;
+}
+
+static inline Nearest nearest_body(const Bodies* bodies, HeadPose head, Points p)
+{
+    Nearest nearest = nearest_capsule(bodies, head, p);
+#ifdef BODY_GRID
+    Points away;
+    const real to_grid = head_distance(bodies->grid, into_head(head, p), &away, bodies->info);
+    const whole is = to_grid <= nearest.distance;
+    nearest.distance = select(nearest.distance, to_grid, is);
+    nearest.away = select_points(nearest.away, away, is);
+    nearest.on_head |= is;
+#endif
+    return nearest;
+}
+
+// Most who ask are outside and do not need it.
+static inline Points away_in_world(HeadPose head, Nearest nearest)
+{
+    return select_points(nearest.away, turn_by(head.row0, head.row1, head.row2, nearest.away), nearest.on_head);
 }
 
 // Finds the bodies that strands with these roots can reach before the step is over.

@@ -1,24 +1,24 @@
-// How a substep of the direct solver keeps nodes out of the bodies: it pushes and rubs them where they would come to
-// lie inside, and at the end lays each strand around them at its exact length.
+// How the direct solver keeps nodes out of the bodies: each substep pushes and rubs them where they would come to lie
+// inside, and at the step's end each strand is laid around them at its exact length.
 #ifndef COIF_BODIES_CONTACT_H
 #define COIF_BODIES_CONTACT_H
 #include "bodies.h"
 #include "held.h"
 
-// Takes a node that would end inside a body to its surface, and rubs it: Coulomb friction takes up to `friction` times
-// the way it was pushed from how far it slid over the body. Node from x, going by *move, while the head went last ->
-// now.
-static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose now, Points x, Points* move, real inside,
-                                float friction)
+// Takes a node that would end inside a capsule to its surface, and rubs it: Coulomb friction takes up to `friction`
+// times the way it was pushed from how far it slid over the body. Node from x, going by *move, while the head went
+// last -> now.
+static inline void push_off_capsules(const Bodies* bodies, HeadPose last, HeadPose now, Points x, Points* move,
+                                     real inside, float friction)
 {
-    Points n;
-    whole on_head;
     const Points at = points(x.x + move->x, x.y + move->y, x.z + move->z);
-    const real gap = fmin(nearest_body(bodies, now, at, &n, &on_head) + inside, (real)(0.0f));
+    const Nearest nearest = nearest_capsule(bodies, now, at);
+    const real gap = fmin(nearest.distance + inside, (real)(0.0f));
     if (!any_lane(gap < 0.0f))
         return;
+    const Points n = away_in_world(now, nearest);
     Points carried = out_of_head(now, into_head(last, x)); // where x would be, were it fixed to the head
-    carried = select_points(x, carried, on_head);
+    carried = select_points(x, carried, nearest.on_head);
     Points slid = points(at.x - carried.x, at.y - carried.y, at.z - carried.z);
     const real out = dot_lanes(slid, n);
     slid = points(slid.x - out * n.x, slid.y - out * n.y, slid.z - out * n.z);
@@ -29,7 +29,26 @@ static inline void push_and_rub(const Bodies* bodies, HeadPose last, HeadPose no
                    move->z - gap * n.z - share * slid.z);
 }
 
-// Root to tip, the last word of a substep: each node at its exact length from its parent and, if that is inside a body,
+#ifdef BODY_GRID
+// The same by the plane that the head's surface is near this node (find_planes).
+static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose now, int node, Points x, Points* move,
+                                  real inside, float friction)
+{
+    const Points n = bodies->normal[node], to = into_head(now, plus(x, *move));
+    real gap = fmin(dot_lanes(n, to) - bodies->level[node] + inside, (real)(0.0f));
+    gap = select((real)(0.0f), gap, bodies->may_meet[node]);
+    if (!any_lane(gap < 0.0f))
+        return;
+    Points slid = minus(to, into_head(last, x));
+    slid = minus(slid, times(dot_lanes(slid, n), n));
+    const real slid2 = dot_lanes(slid, slid);
+    const real share = fmin(-friction * gap * INVERSE_SQRT(fmax(slid2, (real)(1e-30f))), (real)(1.0f));
+    const Points by = plus(times(gap, n), times(share, slid));
+    *move = minus(*move, turn_by(now.row0, now.row1, now.row2, by));
+}
+#endif
+
+// Root to tip, the last word of a step: each node at its exact length from its parent and, if that is inside a body,
 // on the circle where that length meets the body's surface (its tangent plane, found again from where that led). Where
 // the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
 // is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Returns the strands that it found in
@@ -50,15 +69,20 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
         Points last_n = d; // the plane of the round before
         real last_offset = (real)(0.0f);
         whole was_in = (whole)(0);
-        for (int turn = 0; turn < WALK_ROUNDS; ++turn)
+#ifdef BODY_GRID
+        const whole clear = bodies->near_count == 0 ? kept_clear(bodies, head, k, at) : (whole)(0);
+#else
+        const whole clear = (whole)(0);
+#endif
+        for (int turn = 0; turn < WALK_ROUNDS && any_lane(~clear); ++turn)
         {
-            Points n;
-            whole on_head;
-            const real gap = nearest_body(bodies, head, at, &n, &on_head) + inside[k];
-            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < 0.0f);
+            const Nearest nearest = nearest_body(bodies, head, at);
+            const real gap = nearest.distance + inside[k];
+            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < 0.0f) & ~clear;
             if (!any_lane(in))
                 break;
             touched |= in;
+            const Points n = away_in_world(head, nearest);
             // Height of the parent over the plane, and the direction along the plane.
             const real along = dot_lanes(n, d), height = clamp(gap - along, -rest, rest);
             Points t = points(d.x - along * n.x, d.y - along * n.y, d.z - along * n.z);

@@ -15,10 +15,6 @@ static inline lane_share inverse_mass(int node, float tip_mass, held_count held)
     return HELD_SHARE(node < held, 0.0f, node == NODES - 1 ? 1.0f / tip_mass : 1.0f);
 }
 
-static inline Points minus(Points a, Points b) { return points(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline Points plus(Points a, Points b) { return points(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline Points times(real s, Points p) { return points(s * p.x, s * p.y, s * p.z); }
-
 // Newton's equation for the length constraints |a + change|^2 = l^2 with corrections along a, the directions at the
 // start of the step (SHAKE: Ryckaert, Ciccotti, Berendsen 1977), one tridiagonal solve (Thomas). Moves the nodes of the
 // strands in `which` and adds what it took to `multiplier` (times hg, so that multipliers are 1/s^2).

@@ -16,6 +16,10 @@ static inline Points points(real x, real y, real z)
     return p;
 }
 
+static inline Points minus(Points a, Points b) { return points(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline Points plus(Points a, Points b) { return points(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline Points times(real s, Points p) { return points(s * p.x, s * p.y, s * p.z); }
+
 static inline Points turn_by(float4 row0, float4 row1, float4 row2, Points p)
 {
     return points(row0.x * p.x + row0.y * p.y + row0.z * p.z, row1.x * p.x + row1.y * p.y + row1.z * p.z,

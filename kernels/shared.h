@@ -96,16 +96,19 @@ typedef struct StepInfo
     int body_z;
 } StepInfo;
 
-// The head on its way through one step, in sixteenths, for the direct solver, which takes 1, 2, 4, 8 or 16 substeps;
-// and what drag leaves of the velocity, for each pace before and now.
+// The paces of the direct solver: into 1, 2, 3, 4, 6, 8, 12 or 16 substeps of equal length a step is cut.
 #define MOST_SUBSTEPS 16
-#define PACES 5
+#define PACES 8
+static inline int substeps_of(int pace) { return pace < 1 ? 1 : pace % 2 ? 2 << (pace / 2) : 3 << (pace / 2 - 1); }
+
+// The head on its way through one step, where any of those substeps begins or ends; and what drag leaves of the
+// velocity, for each pace before and now.
+#define STEP_PARTS 48
 #define DRAG_WITHIN (PACES + 1)
 typedef struct StepPath
 {
-    float4
-        row[3 * (MOST_SUBSTEPS + 1)]; // rows of its rotation; w: its origin along that axis, against the step's begin
-    // keep, gain (s): [0: at the start; 1 + halvings of the last step; DRAG_WITHIN: of this one][halvings now]
+    float4 row[3 * (STEP_PARTS + 1)]; // rows of its rotation; w: its origin along that axis, against the step's begin
+    // keep, gain (s): [0: at the start; 1 + pace of the last step; DRAG_WITHIN: of this one][pace now]
     float4 drag[(PACES + 2) * PACES];
 } StepPath;
 

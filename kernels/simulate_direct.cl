@@ -19,10 +19,9 @@
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
 
-// The number of halvings of the step that the tension in this block asks for: h w_max <= courant with w_max^2 = 4 times
-// the largest multiplier (transverse waves of a chain). More at once, fewer only when well below: order two lives from
-// equal substeps.
-static inline int halvings(global const float* tension, global const float* segment_length, int block, int before,
+// The pace that the tension in this block asks for: h w_max <= courant with w_max^2 = 4 times the largest multiplier
+// (transverse waves of a chain). Faster at once, slower only when well below: order two lives from equal substeps.
+static inline int pace_for(global const float* tension, global const float* segment_length, int block, int before,
                            constant HairParams* params, constant StepInfo* info)
 {
     float most = 0.0f, shortest = segment_length[block * LANES];
@@ -37,9 +36,9 @@ static inline int halvings(global const float* tension, global const float* segm
     const float waves = info->substep * 2.0f * sqrt(fmin(most, 1e30f)) / params->solver_courant;
     const float need = fmax(waves, info->substep * info->turning_rate);
     int up = 0, down = 0;
-    while (up < 4 && (float)(1 << up) < fmax(need, (float)params->solver_substeps))
+    while (up < PACES - 1 && (float)substeps_of(up) < fmax(need, (float)params->solver_substeps))
         ++up;
-    while (down < 4 && (float)(1 << down) < fmax(1.4f * need, (float)params->solver_substeps))
+    while (down < PACES - 1 && (float)substeps_of(down) < fmax(1.4f * need, (float)params->solver_substeps))
         ++down;
     return max(up, min(before, down));
 }
@@ -79,10 +78,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const int first_scalar = block * NODES * LANES + strand % LANES;
     const real rest = fmax(LANES_LOAD(segment_length + strand) * params->strand_spacing, (real)(1e-9f));
 
-    // pace: 0 at the start, else 1 + halvings of the last step.
+    // pace: 0 at the start, else 1 + that of the last step.
     const int before = pace[block];
-    const int level = halvings(tension, segment_length, block, max(before - 1, 0), params, info);
-    const int substeps = 1 << level;
+    const int pace_now = pace_for(tension, segment_length, block, max(before - 1, 0), params, info);
+    const int substeps = substeps_of(pace_now);
     const float h = info->substep / (float)substeps;
 
 #ifdef HELD
@@ -94,7 +93,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const held_count held = 2;
 #endif
     const Points root_local = load_lanes(root_position + root), direction_local = load_lanes(root_direction + root);
-    const HeadPose begin = head_pose(path, 0), end = head_pose(path, MOST_SUBSTEPS);
+    const HeadPose begin = head_pose(path, 0), end = head_pose(path, STEP_PARTS);
 
     // Where the strand was, carried along rigidly if the head has just jumped.
     Points x[NODES], v[NODES], move[NODES], a[NODES];
@@ -131,7 +130,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     lane_share weight[NODES];
     element_weights(params->bending_attenuation, params->bending_along, held, weight);
     Factor factor;
-    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + level].y), tip_mass, held);
+    factor_bending(&factor, weight, stiffness * (h * path->drag[PACES * DRAG_WITHIN + pace_now].y), tip_mass, held);
 #endif
 #ifdef CONTACT
     Bodies near;
@@ -139,14 +138,18 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #ifdef BODY_GRID
     near.grid = body_distance;
     near.info = info;
+    const Points carried = points((real)(info->origin_move.x), (real)(info->origin_move.y), (real)(info->origin_move.z));
+    find_planes(&near, begin, x, v, times((real)(1.0f / (float)substeps), carried), substeps);
 #endif
     // Hair that starts inside a body is let out at a bounded speed.
     real inside[NODES];
     for (int i = 2; i < NODES && any_near(&near); ++i)
     {
-        Points away;
-        whole on_head;
-        inside[i] = fmax(-nearest_body(&near, begin, x[i], &away, &on_head), (real)(0.0f));
+        real gap = nearest_capsule(&near, begin, x[i]).distance;
+#ifdef BODY_GRID
+        gap = fmin(gap, near.distance[i]);
+#endif
+        inside[i] = fmax(-gap, (real)(0.0f));
     }
 #endif
 #ifdef WIND
@@ -164,9 +167,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     whole bad = (whole)(0);
     for (int substep = 0; substep < substeps; ++substep)
     {
-        const int sixteenths = MOST_SUBSTEPS >> level;
-        const HeadPose last = head_pose(path, substep * sixteenths), now = head_pose(path, (substep + 1) * sixteenths);
-        const float4 drag = path->drag[PACES * (substep ? DRAG_WITHIN : before) + level];
+        const int parts = STEP_PARTS / substeps;
+        const HeadPose last = head_pose(path, substep * parts), now = head_pose(path, (substep + 1) * parts);
+        const float4 drag = path->drag[PACES * (substep ? DRAG_WITHIN : before) + pace_now];
         const float keep = drag.x, hg = h * drag.y;
 
         // Nodes 0 and 1: the segment under the scalp.
@@ -218,7 +221,11 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         {
             inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
             Points pushed = move[i];
-            push_and_rub(&near, last, now, x[i], &pushed, inside[i], params->forces_friction);
+#ifdef BODY_GRID
+            push_off_plane(&near, last, now, i, x[i], &pushed, inside[i], params->forces_friction);
+#endif
+            if (near.near_count > 0)
+                push_off_capsules(&near, last, now, x[i], &pushed, inside[i], params->forces_friction);
             move[i] = POINTS_UNLESS_HELD(i, held, move[i], pushed);
         }
 #endif
@@ -241,7 +248,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             kept = rescue(x, predicted, move, pull, rest, tip_mass, held, failed, &bad);
 
 #ifdef CONTACT
-        if (any_near(&near))
+        if (substep + 1 == substeps && any_near(&near))
         {
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)
@@ -287,7 +294,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     LANES_STORE(fmax(LANES_LOAD(moved + strand), sqrt(farthest2)), moved + strand);
     LANES_STORE(select(tensest, (real)(0.0f), bad | !(tensest < 1e30f)), tension_next + strand);
     if (strand % LANES == 0)
-        pace_next[block] = 1 + level;
+        pace_next[block] = 1 + pace_now;
 
     note_faults(resets, faults, strand, info->guides, bad_position, bad_motion, came_bad | bad);
 

@@ -10,7 +10,7 @@ kernel void simulate_rigid(global float* position, global float* velocity, globa
     const int strand = get_global_id(0) * WIDTH; // of the first lane
     if (strand >= (info->guides + LANES - 1) / LANES * LANES)
         return;
-    const HeadPose begin = head_pose(path, 0), end = head_pose(path, MOST_SUBSTEPS);
+    const HeadPose begin = head_pose(path, 0), end = head_pose(path, STEP_PARTS);
     const float per_second = 1.0f / info->substep;
     real farthest2 = (real)(0.0f);
     for (int i = 0; i < NODES; ++i)

@@ -99,7 +99,7 @@ static Sampled move(const Device& device, HairParams params, const Groom& groom,
         const Mapped view = solver.guide_positions();
         sampled.positions.insert(sampled.positions.end(), view.as<float>(), view.as<float>() + values);
     }
-    sampled.most_substeps = 1 << std::max(0, read<int>(device, solver.buffers().at("pace"), 1)[0] - 1);
+    sampled.most_substeps = substeps_of(read<int>(device, solver.buffers().at("pace"), 1)[0] - 1);
     return sampled;
 }
 

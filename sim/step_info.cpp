@@ -181,11 +181,13 @@ StepPath make_step_path(const HairParams& params, const Pose& before, const Subs
                         double seconds_before)
 {
     StepPath path = {};
-    for (int i = 0; i <= MOST_SUBSTEPS; ++i)
+    for (int i = 0; i <= STEP_PARTS; ++i)
     {
-        const double share = double(i) / MOST_SUBSTEPS;
+        if (i % 3 != 0 && i % 4 != 0) // of sixteen substeps, or of twelve
+            continue;
+        const double share = double(i) / STEP_PARTS;
         Pose pose = now.head;
-        if (!teleport && i < MOST_SUBSTEPS)
+        if (!teleport && i < STEP_PARTS)
             pose = now.way ? now.way(share)
                            : Pose{glm::mix(before.origin, now.head.origin, share),
                                   glm::slerp(before.turn, now.head.turn, share),
@@ -201,10 +203,10 @@ StepPath make_step_path(const HairParams& params, const Pose& before, const Subs
     for (int from = 0; from <= DRAG_WITHIN; ++from)
         for (int to = 0; to < PACES; ++to)
         {
-            const double h = double(now.seconds) / double(1 << to);
+            const double h = double(now.seconds) / substeps_of(to);
             const double h_before = from == 0             ? 0.0
                                     : from == DRAG_WITHIN ? h // steps need not be equally long
-                                                          : seconds_before / double(1 << (from - 1));
+                                                          : seconds_before / substeps_of(from - 1);
             path.drag[PACES * from + to] = drag_between(params.forces_drag, h_before, h);
         }
     return path;
@@ -216,13 +218,14 @@ static double root_acceleration(const StepPath& path, double seconds, double rea
 {
     const double quarter = seconds / 4.0;
     double most = 0.0;
-    for (int i = MOST_SUBSTEPS / 4; i < MOST_SUBSTEPS; i += MOST_SUBSTEPS / 4)
+    constexpr int kQuarter = STEP_PARTS / 4;
+    for (int i = kQuarter; i < STEP_PARTS; i += kQuarter)
     {
         double origin2 = 0.0, turn2 = 0.0;
         for (int axis = 0; axis < 3; ++axis)
         {
-            const float4 &a = path.row[3 * (i - MOST_SUBSTEPS / 4) + axis], &b = path.row[3 * i + axis],
-                         &c = path.row[3 * (i + MOST_SUBSTEPS / 4) + axis];
+            const float4 &a = path.row[3 * (i - kQuarter) + axis], &b = path.row[3 * i + axis],
+                         &c = path.row[3 * (i + kQuarter) + axis];
             const auto second = [](float l, float m, float r) { return double(l) - 2.0 * double(m) + double(r); };
             origin2 += std::pow(second(a.w, b.w, c.w), 2);
             turn2 += std::pow(second(a.x, b.x, c.x), 2) + std::pow(second(a.y, b.y, c.y), 2) +

@@ -76,9 +76,12 @@ static double root_acceleration(const DirectStep& step)
 
 // ---- substeps ------------------------------------------------------------------------------------------------------
 
-// Halvings so that h w_max <= courant, w_max^2 four times the largest multiplier among the sixteen; fewer than before
-// only where four tenths more would fit too. `closeness` takes the smallest distance to another choice.
-static int halvings(const DirectStrands& strands, const DirectStep& step, int block, double& closeness)
+// The numbers of substeps there are.
+static const std::vector<int> kCounts = {1, 2, 3, 4, 6, 8, 12, 16};
+
+// Which of them, so that h w_max <= courant, w_max^2 four times the largest multiplier among the sixteen; fewer than
+// before only where four tenths more would fit too. `closeness` takes the smallest distance to another choice.
+static int pace_for(const DirectStrands& strands, const DirectStep& step, int block, double& closeness)
 {
     const HairParams& params = step.params;
     double most = 0.0, shortest = INFINITY;
@@ -94,16 +97,16 @@ static int halvings(const DirectStrands& strands, const DirectStep& step, int bl
     most = std::max(most, (strands.nodes - 2) * hung / shortest);
     const double waves = 2.0 * std::sqrt(most) / params.solver_courant;
     const double need = double(step.now.seconds) * std::max(waves, double(step.info.turning_rate));
-    const auto level_for = [&](double wanted)
+    const auto for_need = [&](double wanted)
     {
-        int level = 0;
-        while (level < 4 && std::ldexp(1.0, level) < std::max(wanted, double(params.solver_substeps)))
-            ++level;
-        for (int i = 0; i <= 4; ++i)
-            closeness = std::min(closeness, std::abs(wanted / std::ldexp(1.0, i) - 1.0));
-        return level;
+        int pace = 0;
+        while (pace < 7 && kCounts[size_t(pace)] < std::max(wanted, double(params.solver_substeps)))
+            ++pace;
+        for (const int count : kCounts)
+            closeness = std::min(closeness, std::abs(wanted / count - 1.0));
+        return pace;
     };
-    const int least = level_for(need), calm = level_for(1.4 * need);
+    const int least = for_need(need), calm = for_need(1.4 * need);
     const int before = std::max(strands.pace[size_t(block)] - 1, 0);
     return before > calm ? std::max(calm, least) : std::max(before, least);
 }
@@ -120,25 +123,10 @@ struct Nearest
 };
 } // namespace
 
-static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p, const Rounder& round)
+static Nearest nearest_capsule(const DirectStep& step, const Place& head, Vec p)
 {
     Nearest nearest;
     const Vec origin = step.teleport ? step.now.head.origin : step.before.origin;
-    if (step.on_grid)
-    {
-        StepInfo in_head = step.info;
-        in_head.head_row0 = F4(1.0f, 0.0f, 0.0f, 0.0f);
-        in_head.head_row1 = F4(0.0f, 1.0f, 0.0f, 0.0f);
-        in_head.head_row2 = F4(0.0f, 0.0f, 1.0f, 0.0f);
-        // Places count from the grid's corner.
-        const Vec local = head.into(p);
-        const Vec off =
-            round(4.0 * glm::distance(local, Vec(in_head.body_corner.x, in_head.body_corner.y, in_head.body_corner.z)));
-        const Plane plane = plane_at(step.grid, local + off, in_head);
-        // And slopes are differences of distances, which count in voxels.
-        const double deep = std::abs(plane.distance) / double(in_head.body_corner.w);
-        nearest = {plane.distance, glm::normalize(head.turn * plane.normal + round(6.0 * deep)), true};
-    }
     for (const Round& body : step.bodies)
     {
         const Vec center = body.on_head ? head.out(body.center) : body.center - origin;
@@ -154,15 +142,62 @@ static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p, co
     return nearest;
 }
 
+// The head's grid at a point of its frame: distance, and the normal there.
+static Plane head_at(const DirectStep& step, Vec local, const Rounder& round)
+{
+    StepInfo in_head = step.info;
+    in_head.head_row0 = F4(1.0f, 0.0f, 0.0f, 0.0f);
+    in_head.head_row1 = F4(0.0f, 1.0f, 0.0f, 0.0f);
+    in_head.head_row2 = F4(0.0f, 0.0f, 1.0f, 0.0f);
+    // Places count from the grid's corner.
+    const Vec off =
+        round(4.0 * glm::distance(local, Vec(in_head.body_corner.x, in_head.body_corner.y, in_head.body_corner.z)));
+    Plane plane = plane_at(step.grid, local + off, in_head);
+    // And slopes are differences of distances, which count in voxels.
+    const double deep = std::abs(plane.distance) / double(in_head.body_corner.w);
+    plane.normal = glm::normalize(plane.normal + round(6.0 * deep));
+    return plane;
+}
+
+static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p, const Rounder& round)
+{
+    const Nearest nearest = nearest_capsule(step, head, p);
+    if (!step.on_grid)
+        return nearest;
+    const Plane plane = head_at(step, head.into(p), round);
+    return plane.distance <= nearest.distance ? Nearest{plane.distance, head.turn * plane.normal, true} : nearest;
+}
+
+namespace
+{
+// What a node knows of the head all through a step, in the head's frame.
+struct Ground
+{
+    Vec start{0.0}, normal{0.0, 1.0, 0.0};
+    double distance = INFINITY, level = -INFINITY; // of the start from the surface; of the plane
+    bool may_meet = false;
+};
+} // namespace
+
+// A node at x that goes `way` against the head's origin in the step.
+static Ground ground_of(const DirectStep& step, const Place& begin, Vec x, Vec way, const Rounder& round)
+{
+    if (!step.on_grid)
+        return {};
+    const Vec start = begin.into(x) + round(6.0 * glm::length(x));
+    const Plane plane = head_at(step, start, round);
+    const double room = plane.distance - 0.005;
+    return {start, plane.normal, plane.distance, glm::dot(plane.normal, start) - plane.distance,
+            room < 0.0 || 2.0 * glm::length(way) >= room};
+}
+
 // ---- one strand ----------------------------------------------------------------------------------------------------
 
 // A node that would end inside a body goes to its surface; friction takes up to its coefficient times that push from
 // how far the node slid over the body (Coulomb).
-static void push_and_rub(const DirectStep& step, const Place& last, const Place& now, Vec x, Vec& move, double inside,
-                         const Rounder& round)
+static void push_off(const DirectStep& step, const Place& last, const Place& now, Vec x, const Nearest& body, Vec at,
+                     Vec& move, double inside, const Rounder& round)
 {
-    const Vec at = x + move + round(6.0 * (glm::length(x) + glm::length(move)));
-    const Nearest body = nearest_body(step, now, at, round);
     const double pushed = -(body.distance + inside);
     if (!(pushed > 0.0))
         return;
@@ -171,6 +206,21 @@ static void push_and_rub(const DirectStep& step, const Place& last, const Place&
     slid -= glm::dot(slid, n) * n;
     const double way = glm::length(slid), rubbed = std::min(step.params.forces_friction * pushed, way);
     move += pushed * n - (way > 0.0 ? slid * (rubbed / way) : Vec(0.0));
+}
+
+// First off the plane that the head is near it, then off whatever capsule is nearest.
+static void push_and_rub(const DirectStep& step, const Place& last, const Place& now, Vec x, const Ground& ground,
+                         Vec& move, double inside, const Rounder& round)
+{
+    const auto at = [&] { return x + move + round(6.0 * (glm::length(x) + glm::length(move))); };
+    if (ground.may_meet)
+    {
+        const Vec to = at();
+        const Nearest head = {glm::dot(ground.normal, now.into(to)) - ground.level, now.turn * ground.normal, true};
+        push_off(step, last, now, x, head, to, move, inside, round);
+    }
+    const Vec to = at();
+    push_off(step, last, now, x, nearest_capsule(step, now, to), to, move, inside, round);
 }
 
 // From root to tip: each node at its length from its parent and, if inside a body, where that length meets the plane
@@ -226,7 +276,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
 static bool substep(Strand& strand, const DirectStep& step, const Place& last, const Place& now, double h, Drag drag,
                     double gain_steady, Vec root, Vec direction, Vec normal, const Vec* at_rest,
                     const std::vector<Vec>& rest_bend, const std::vector<Vec>& wind, const std::vector<Vec>& push,
-                    std::vector<double>& inside, const Rounder& round)
+                    const std::vector<Ground>& ground, std::vector<double>& inside, bool is_last, const Rounder& round)
 {
     const int n = strand.n;
     const Vec along = now.turn * direction + round(6.0);
@@ -263,7 +313,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         for (size_t i = size_t(strand.held); i < size_t(n); ++i)
         {
             inside[i] = std::max(inside[i] - double(step.info.push_out) * h, 0.0);
-            push_and_rub(step, last, now, strand.x[i], move[i], inside[i], round);
+            push_and_rub(step, last, now, strand.x[i], ground[i], move[i], inside[i], round);
         }
 
     constexpr double kTolerance = 5e-4;
@@ -280,7 +330,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         move = predicted;
         sound = rescue(strand, move, step.tip_mass, kept, round);
     }
-    if (step.on_grid || !step.bodies.empty())
+    if (is_last && (step.on_grid || !step.bodies.empty()))
     {
         std::vector<Vec> walked;
         for (size_t i = 0; i < size_t(n); ++i)
@@ -322,9 +372,9 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
     for (const Vec& g : step.gradient)
         steepest = std::max(steepest, glm::length(g));
     double closeness = INFINITY;
-    std::vector<int> levels;
+    std::vector<int> paces;
     for (size_t block = 0; block < strands.pace.size(); ++block)
-        levels.push_back(halvings(strands, step, int(block), closeness));
+        paces.push_back(pace_for(strands, step, int(block), closeness));
 
     for (int s = 0; s < strands.count(); ++s)
     {
@@ -350,14 +400,17 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         if (fault)
             start_again(strand, begin, &strands.rest_position[first], step.head_velocity);
 
-        const int before = strands.pace[size_t(s / 16)], level = levels[size_t(s / 16)], substeps = 1 << level;
+        const int before = strands.pace[size_t(s / 16)], substeps = kCounts[size_t(paces[size_t(s / 16)])];
         const double h = double(step.now.seconds) / substeps, b = step.params.forces_drag;
         std::vector<Vec> wind(size_t(n), Vec(0.0)), push(size_t(n), Vec(0.0));
         std::vector<double> inside(size_t(n), 0.0);
+        std::vector<Ground> ground(static_cast<size_t>(n));
+        const Vec carry(step.info.origin_move.x, step.info.origin_move.y, step.info.origin_move.z);
         for (size_t i = 2; i < size_t(n); ++i)
         {
-            inside[i] = std::max(0.0, -nearest_body(step, begin, strand.x[i], round).distance) +
-                        std::abs(round.one(8.0 * glm::length(strand.x[i])));
+            ground[i] = ground_of(step, begin, strand.x[i], double(step.now.seconds) * strand.v[i] - carry, round);
+            const double gap = std::min(ground[i].distance, nearest_capsule(step, begin, strand.x[i]).distance);
+            inside[i] = std::max(0.0, -gap) + std::abs(round.one(8.0 * glm::length(strand.x[i])));
             if (step.wind) // places are up to 256 cells
                 wind[i] = wind_at(strand.x[i], step.info) +
                           round(1000.0 * step.info.wind.w * step.info.gust_origin.w + 4.0 * step.info.wind.w);
@@ -370,13 +423,13 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         bool lost = false;
         for (int i = 0; i < substeps; ++i)
         {
-            const double h_before = i > 0 ? h : before > 0 ? std::ldexp(step.seconds_before, 1 - before) : 0.0;
+            const double h_before = i > 0 ? h : before > 0 ? step.seconds_before / kCounts[size_t(before - 1)] : 0.0;
             lost |= !substep(strand, step, place_at(step, double(i) / substeps),
                              place_at(step, double(i + 1) / substeps), h, drag_over(b, h_before, h), steady,
                              strands.root_position[size_t(s)], strands.root_direction[size_t(s)],
                              strands.root_normal[size_t(s)], &strands.rest_position[first],
                              {strands.rest_bend.begin() + long(first), strands.rest_bend.begin() + long(first) + n},
-                             wind, push, inside, round);
+                             wind, push, ground, inside, i + 1 == substeps, round);
             for (const double pull : strand.pull)
                 tensest = std::max(tensest, std::abs(pull));
         }
@@ -399,7 +452,7 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         }
     }
     for (size_t block = 0; block < strands.pace.size(); ++block)
-        strands.pace[block] = 1 + levels[block];
+        strands.pace[block] = 1 + paces[block];
     return closeness;
 }
 

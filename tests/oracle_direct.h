@@ -16,7 +16,7 @@ struct DirectStrands : Strands
 {
     std::vector<double> multiplier; // [strand][node], of the segment that ends there, 1/s^2
     std::vector<double> tension;    // [strand], the largest multiplier of the last step
-    std::vector<int> pace;          // [block of 16], 0 at the start, else 1 + halvings of the last step
+    std::vector<int> pace;          // [block of 16], 0 at the start, else 1 + pace of the last step
     std::vector<int> faults;        // [strand]
     std::vector<Vec> rest_position; // [strand][node], in the head's frame
     std::vector<Vec> rest_bend;     // [strand][node], along tangent, normal and binormal

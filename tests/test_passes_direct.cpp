@@ -103,8 +103,8 @@ class DirectPass : public testing::TestWithParam<Case>
             const double rest = float(groom.segment_length[size_t(s)]) * step.params.strand_spacing;
             const Vec direction = state.root_direction[size_t(s)];
             state.segment_length.push_back(groom.segment_length[size_t(s)]);
-            // For h 2 sqrt(tension) / courant = 2^level, just over a half of that in between.
-            const double asked = std::ldexp(random.in(0.55, 0.95), (s / 16 / (PACES + 1)) % PACES);
+            // For h 2 sqrt(tension) / courant as many substeps as a pace has, or a little less.
+            const double asked = random.in(0.8, 0.95) * substeps_of((s / 16 / (PACES + 1)) % PACES);
             const double tension = float(std::pow(30.0 * asked * step.params.solver_courant, 2));
             state.tension.push_back(s % 16 ? float(tension * random.in(0.0, 0.9)) : tension);
             state.root_normal.push_back(rounded(glm::normalize(glm::cross(direction, random.direction()))));

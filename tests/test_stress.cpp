@@ -109,8 +109,8 @@ TEST_F(Stress, AWriteOutsideOfABufferIsSeen)
     };
     EXPECT_EQ(play(device), std::vector<std::string>());
     Device planted = device;
-    planted.kernel_folder = changed_data("simulate_direct.cl", "pace_next[block] = 1 + level;",
-                                         "pace_next[block + 2] = pace_next[block] = 1 + level;") /
+    planted.kernel_folder = changed_data("simulate_direct.cl", "pace_next[block] = 1 + pace_now;",
+                                         "pace_next[block + 2] = pace_next[block] = 1 + pace_now;") /
                             "kernels";
     const std::vector<std::string> found = play(planted);
     ASSERT_FALSE(found.empty());

@@ -26,7 +26,8 @@ static std::vector<Plot> bench_plots(const std::vector<BenchRow>& rows)
     std::string data, curves;
     std::vector<std::string> notes;
     for (const BenchRow& row : rows)
-        if (row.scene == "growth" && row.what == "frame" && std::find(notes.begin(), notes.end(), row.note) == notes.end())
+        if (row.scene == "growth" && row.what == "frame" &&
+            std::find(notes.begin(), notes.end(), row.note) == notes.end())
             notes.push_back(row.note);
     if (notes.empty())
         return {};
@@ -42,7 +43,8 @@ static std::vector<Plot> bench_plots(const std::vector<BenchRow>& rows)
     }
     const std::string body = "set logscale xy\nset xlabel 'strands, all simulated'\nset ylabel 'ms a frame'\n"
                              "set key left top\nset grid\nset xrange [200:140000]\n" +
-                             curves + ", 1000.0 / 60.0 with lines dashtype 2 linecolor 'gray' title '60 frames a second'\n";
+                             curves +
+                             ", 1000.0 / 60.0 with lines dashtype 2 linecolor 'gray' title '60 frames a second'\n";
     return {{"growth", 720, 480, data, body}};
 }
 

@@ -12,9 +12,9 @@ namespace coif
 
 struct BenchOptions
 {
-    bool quick = false;            // fewer repeats and sizes
+    bool quick = false;             // fewer repeats and sizes
     bool json = false, csv = false; // to standard output, instead of the table
-    std::vector<std::string> only; // ids of scenes; empty: all
+    std::vector<std::string> only;  // ids of scenes; empty: all
 };
 
 // What a scene is given to work with.

@@ -62,8 +62,7 @@ Machine measure_machine(const Device& device)
     device.queue.enqueueFillBuffer(buffers["sums"], 0.5f, 0, sums * sizeof(float));
     Kernel adds = load_kernel(device, "limits/multiply_add",
                               fmt::format("-D WIDTH={} -D CHAINS={} -D LINKS={}", width, chains, links));
-    machine.operations =
-        2.0 * double(chains * links * sums) / best_seconds(device, adds, buffers, sums / width);
+    machine.operations = 2.0 * double(chains * links * sums) / best_seconds(device, adds, buffers, sums / width);
     return machine;
 }
 

@@ -11,7 +11,7 @@ struct Machine
 {
     std::string device, processor, system; // names
     int compute_units = 0;
-    int width = 0;          // strands a work-item moves at once
+    int width = 0;           // strands a work-item moves at once
     double bandwidth = 0.0;  // bytes a second, those read and those written
     double operations = 0.0; // on single-precision numbers a second
 };

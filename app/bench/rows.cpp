@@ -25,9 +25,9 @@ static std::string wanted(const BenchRow& row)
 
 std::string bench_table(const std::vector<BenchRow>& rows, const Machine& machine)
 {
-    std::vector<std::vector<std::string>> lines = {{"scene", "what", "strands", "cores", "ms", "quartiles",
-                                                    "ns/strand", "of bandwidth", "of peak", "thesis' way, ms",
-                                                    "times faster", "wanted"}};
+    std::vector<std::vector<std::string>> lines = {{"scene", "what", "strands", "cores", "ms", "quartiles", "ns/strand",
+                                                    "of bandwidth", "of peak", "thesis' way, ms", "times faster",
+                                                    "wanted"}};
     std::string last;
     for (const BenchRow& row : rows)
     {
@@ -35,13 +35,12 @@ std::string bench_table(const std::vector<BenchRow>& rows, const Machine& machin
         if (scene + std::to_string(row.strands) != last && !last.empty())
             lines.emplace_back();
         last = scene + std::to_string(row.strands);
-        lines.push_back({scene, row.what, row.strands ? fmt::format("{}", row.strands) : "",
-                         fmt::format("{}", row.cores), figure(row.ms, "{:.3f}"),
-                         figure(row.low, "{:.3f}") + " - " + figure(row.high, "{:.3f}"),
-                         row.strands ? figure(1e6 * row.ms / row.strands, "{:.1f}") : "",
-                         figure(100.0 * row.of_bandwidth(machine), "{:.0f} %"),
-                         figure(100.0 * row.of_peak(machine), "{:.0f} %"), figure(row.baseline_ms, "{:.3f}"),
-                         figure(row.ratio(), "{:.2f}"), wanted(row)});
+        lines.push_back(
+            {scene, row.what, row.strands ? fmt::format("{}", row.strands) : "", fmt::format("{}", row.cores),
+             figure(row.ms, "{:.3f}"), figure(row.low, "{:.3f}") + " - " + figure(row.high, "{:.3f}"),
+             row.strands ? figure(1e6 * row.ms / row.strands, "{:.1f}") : "",
+             figure(100.0 * row.of_bandwidth(machine), "{:.0f} %"), figure(100.0 * row.of_peak(machine), "{:.0f} %"),
+             figure(row.baseline_ms, "{:.3f}"), figure(row.ratio(), "{:.2f}"), wanted(row)});
     }
     return fmt::format("{}\n{}, {} compute units, {} strands a work-item; {}\nlimits: {:.1f} GB/s read and written, "
                        "{:.1f} thousand million operations a second\n",
@@ -54,13 +53,15 @@ std::string bench_csv(const std::vector<BenchRow>& rows, const Machine& machine)
     std::string csv = "scene,note,what,strands,cores,ms,low_ms,high_ms,bytes,of_bandwidth,operations,of_peak,"
                       "baseline_ms,ratio,most_ms,least_ratio,reached\n";
     for (const BenchRow& row : rows)
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(row.scene),
-                           csv_text(row.note), csv_text(row.what), row.strands, row.cores, figure(row.ms, "{:.6g}"),
-                           figure(row.low, "{:.6g}"), figure(row.high, "{:.6g}"), figure(row.bytes, "{:.6g}"),
-                           figure(row.of_bandwidth(machine), "{:.4g}"), figure(row.operations, "{:.6g}"),
-                           figure(row.of_peak(machine), "{:.4g}"), figure(row.baseline_ms, "{:.6g}"),
-                           figure(row.ratio(), "{:.4g}"), figure(row.most_ms, "{:.4g}"),
-                           figure(row.least_ratio, "{:.4g}"), !row.judged() ? "" : row.reached() ? "yes" : "no");
+        csv += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(row.scene), csv_text(row.note),
+            csv_text(row.what), row.strands, row.cores, figure(row.ms, "{:.6g}"), figure(row.low, "{:.6g}"),
+            figure(row.high, "{:.6g}"), figure(row.bytes, "{:.6g}"), figure(row.of_bandwidth(machine), "{:.4g}"),
+            figure(row.operations, "{:.6g}"), figure(row.of_peak(machine), "{:.4g}"), figure(row.baseline_ms, "{:.6g}"),
+            figure(row.ratio(), "{:.4g}"), figure(row.most_ms, "{:.4g}"), figure(row.least_ratio, "{:.4g}"),
+            !row.judged()   ? ""
+            : row.reached() ? "yes"
+                            : "no");
     return csv;
 }
 
@@ -82,7 +83,10 @@ std::string bench_json(const std::vector<BenchRow>& rows, const Machine& machine
             json_number(row.ms), json_number(row.low), json_number(row.high), json_number(row.bytes),
             json_number(row.of_bandwidth(machine)), json_number(row.operations), json_number(row.of_peak(machine)),
             json_number(row.baseline_ms), json_number(row.ratio()), json_number(row.most_ms),
-            json_number(row.least_ratio), !row.judged() ? "null" : row.reached() ? "true" : "false");
+            json_number(row.least_ratio),
+            !row.judged()   ? "null"
+            : row.reached() ? "true"
+                            : "false");
         separator = ",\n";
     }
     return json + "\n]}\n";

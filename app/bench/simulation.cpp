@@ -64,8 +64,9 @@ std::vector<BenchRow> bench_guides(const Benching& with)
 {
     std::vector<BenchRow> rows;
     with.progress("4096 guides");
-    BenchHair many(with.device, "bob", {"interpolation.guides=all", "interpolation.strands=4096", "look.self_shadow=0",
-                                        "forces.repulsion=0"});
+    BenchHair many(
+        with.device, "bob",
+        {"interpolation.guides=all", "interpolation.strands=4096", "look.self_shadow=0", "forces.repulsion=0"});
     BenchHair few(with.device, "bob", {"forces.wind=[3, 0, 0]", "forces.repulsion=1", "interpolation.strands=4096"});
     const std::vector<std::vector<BenchRow>> times =
         timed({[&] { return many.frames(24, false); }, [&] { return few.frames(24, true); }}, with.quick ? 5 : 21);

@@ -105,8 +105,8 @@ static std::vector<BenchRow> compare_strands(const Benching& with)
 {
     const int iterations = 8;
     const std::vector<std::string> sets = {
-        "interpolation.guides=all", "interpolation.strands=4096", "look.self_shadow=0",  "forces.repulsion=0",
-        "solver.iterations=8",      "head.contact=spheres",       "head.spheres=\"\"", "solver.kind=pbd"};
+        "interpolation.guides=all", "interpolation.strands=4096", "look.self_shadow=0", "forces.repulsion=0",
+        "solver.iterations=8",      "head.contact=spheres",       "head.spheres=\"\"",  "solver.kind=pbd"};
     std::vector<std::string> direct = sets;
     direct.back() = "solver.kind=direct";
     BenchHair ours(with.device, "bob", sets), better(with.device, "bob", direct);
@@ -117,8 +117,9 @@ static std::vector<BenchRow> compare_strands(const Benching& with)
         const glm::vec3 scalp(0.05f * std::sin(0.16f * float(++frame)), 0.0f, 0.0f);
         return PassTimes{{"simulate", theirs.step(scalp) * strands * 1e-6}};
     };
-    const auto renamed = [](PassTimes times, const std::string& pass)
-    { return PassTimes{{"simulate", ms_of(times, pass)}}; };
+    const auto renamed = [](PassTimes times, const std::string& pass) {
+        return PassTimes{{"simulate", ms_of(times, pass)}};
+    };
     const auto times = timed({[&] { return renamed(ours.frames(8, false), "simulate_pbd"); },
                               [&] { return renamed(better.frames(8, false), "simulate_direct"); }, step},
                              with.quick ? 5 : 21);
@@ -135,13 +136,11 @@ static std::vector<BenchRow> compare_strands(const Benching& with)
 
 static std::vector<BenchRow> compare_grid(const Benching& with, int resolution)
 {
-    BenchHair ours(with.device, "bob",
-                   {"forces.repulsion=1", fmt::format("grid.resolution={}", resolution)});
+    BenchHair ours(with.device, "bob", {"forces.repulsion=1", fmt::format("grid.resolution={}", resolution)});
     ThesisGrid theirs(with.device, resolution);
-    const auto times = timed({[&] { return ours.frames(8, false); }, [&] { return theirs.frames(4); }},
-                             with.quick ? 5 : 21);
-    BenchRow row =
-        compared(times[0], times[1], with, {"clear_density", "blur_density", "density_gradient"}, 10.0);
+    const auto times =
+        timed({[&] { return ours.frames(8, false); }, [&] { return theirs.frames(4); }}, with.quick ? 5 : 21);
+    BenchRow row = compared(times[0], times[1], with, {"clear_density", "blur_density", "density_gradient"}, 10.0);
     row.note = fmt::format("{0} x {0} x {0} voxels", resolution);
     row.what = "passes of the grid";
     return {row};
