@@ -89,7 +89,7 @@ static inline void find_planes(Bodies* bodies, HeadPose begin, const Points* x, 
         bodies->start[i] = p;
         bodies->distance[i] = distance;
         bodies->level[i] = dot_lanes(bodies->normal[i], p) - distance;
-        bodies->may_meet[i] = room < 0.0f | !(dot_lanes(way, way) < room * room);
+        bodies->may_meet[i] = (room < 0.0f) | !(dot_lanes(way, way) < room * room);
     }
 }
 

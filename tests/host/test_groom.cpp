@@ -1,5 +1,6 @@
 // Hair as it grows: roots, and the mixing of drawn strands.
 #include "sim/groom.h"
+#include "sim/scatter.h"
 #include "tests/host/scratch.h"
 
 #include <glm/geometric.hpp>
@@ -214,6 +215,46 @@ TEST(Groom, copies_are_their_guide_turned_about_the_heads_centre_and_stay_on_the
         }
         EXPECT_GE(turned, spread > 0.0f ? 700 : 0) << spread;
     }
+}
+
+TEST(Groom, where_all_strands_are_simulated_each_drawn_one_is_a_guide_of_its_own_on_the_round_scalp)
+{
+    HairParams params;
+    params.interpolation_guides = GUIDES_ALL;
+    params.interpolation_strands = 1000;
+    const Groom groom = grow(params, whole_scalp()), few = grow(HairParams(), whole_scalp());
+    ASSERT_EQ(groom.guides, 1000);
+    ASSERT_EQ(groom.drawn.size(), 1000u);
+    EXPECT_EQ(groom.drawn_multi, 0);
+    // The fine scalp's triangles are as good as its curve.
+    const Scalp fine = refined(whole_scalp(), 2);
+    double lowest = 0.0, mean = 0.0;
+    for (int s = 0; s < groom.guides; ++s)
+    {
+        const DrawnStrand& drawn = groom.drawn[size_t(s)];
+        const glm::vec3 root = of_lane(groom.root_position, s);
+        EXPECT_EQ(drawn.guide0, s);
+        EXPECT_EQ(vec(drawn.weights), glm::vec3(0.0f)) << "unturned";
+        EXPECT_EQ(vec(drawn.root), root);
+        if (s < few.guides)
+        {
+            EXPECT_EQ(root, of_lane(few.root_position, s)) << "authored vertices come first, and keep their guides";
+        }
+        double off = INFINITY;
+        for (const glm::uvec3& t : fine.triangles)
+            off = std::min(
+                off, double(triangle_distance(root, fine.positions[t.x], fine.positions[t.y], fine.positions[t.z])));
+        lowest = std::max(lowest, off);
+        mean += off / groom.guides;
+    }
+    EXPECT_LT(lowest, 1.5e-3);
+    EXPECT_LT(mean, 2e-4);
+    params.interpolation_strands = 60;
+    const Groom thin = grow(params, whole_scalp());
+    EXPECT_EQ(thin.guides, few.guides) << "no fewer than the scalp has vertices";
+    ASSERT_EQ(thin.drawn.size(), 60u);
+    for (size_t i = 1; i < 60; ++i)
+        EXPECT_GT(thin.drawn[i].guide0, thin.drawn[i - 1].guide0);
 }
 
 TEST(Groom, cuts_lie_between_one_less_the_variation_and_one)

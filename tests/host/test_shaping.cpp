@@ -2,6 +2,7 @@
 #include "sim/clumps.h"
 #include "sim/groom.h"
 #include "sim/hairstyle.h"
+#include "sim/scatter.h"
 #include "sim/shaping.h"
 #include "sim/simulation.h"
 #include "sim/source.h"
@@ -271,9 +272,11 @@ TEST(Shaping, maps_are_smooth_between_vertices_and_over_refined_scalps)
     style.host.maps.push_back({"strand.length", MAP_OFFSET, {}, {}});
     for (const glm::vec3& p : scalp.positions)
         style.host.maps[0].values.push_back(p.x); // linear over space
-    for (const int refine : {0, 2})
+    for (const int refine : {0, 2, -1})
     {
-        const Scalp fine = refined(scalp, refine);
+        // -1: with vertices strewn over it.
+        const Scalp fine = refine < 0 ? strewn(scalp, spread_places(scalp, 2000, 1)) : refined(scalp, refine);
+        ASSERT_GT(fine.positions.size(), refine ? 2000u : 100u);
         const Shaping shaping = shape_over(style.params, style.host, scalp, fine);
         ASSERT_EQ(shaping.map_values[0].size(), fine.positions.size());
         for (const glm::uvec3& t : fine.triangles)

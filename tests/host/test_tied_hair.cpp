@@ -1,6 +1,7 @@
 // What ties make of a groom: hair runs over the head to its ring, through it, and on.
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/scatter.h"
 #include "sim/tied_hair.h"
 #include "tests/host/scratch.h"
 
@@ -181,6 +182,24 @@ TEST(TiedHair, is_cut_behind_the_ring_only)
         shortest = std::min(shortest, scene.groom.drawn[size_t(i)].root.w);
     }
     EXPECT_LT(shortest, 0.6f);
+}
+
+TEST(TiedHair, holds_each_strand_by_its_own_guide_where_all_are_simulated)
+{
+    Scene scene({pony_tail()});
+    scene.style.params.interpolation_guides = GUIDES_ALL;
+    scene.style.params.interpolation_strands = 900;
+    scene.tie();
+    ASSERT_EQ(scene.groom.guides, 900);
+    EXPECT_GT(scene.groom.drawn_multi, 800) << "what is tied hangs in the tail";
+    for (int i = 0; i < scene.groom.drawn_multi; ++i)
+    {
+        const DrawnStrand& strand = scene.groom.drawn[size_t(i)];
+        EXPECT_EQ(strand.guide0, strand.guide1);
+        EXPECT_EQ(strand.guide0, strand.guide2);
+        EXPECT_GT(scene.groom.tied[size_t(i)].ring, 0.0f);
+        EXPECT_GT(held_nodes(scene.groom, strand.guide0), 2);
+    }
 }
 
 TEST(TiedHair, gathers_the_hair_of_its_regions_alone)
