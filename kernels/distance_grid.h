@@ -38,23 +38,6 @@ static inline BodyCell body_cell(Points p, int size_x, int size_y, int size_z, f
     return cell;
 }
 
-// Two values side by side for each lane.
-static inline void gather_pair(global const float* from, const int* first, real* low, real* high)
-{
-#if WIDTH == 1
-    *low = from[first[0]];
-    *high = from[first[0] + 1];
-#else
-    float pairs[2 * WIDTH];
-#pragma unroll
-    for (int lane = 0; lane < WIDTH; ++lane)
-        vstore2(vload2(0, from + first[lane]), lane, pairs);
-    const real a = LANES_LOAD(pairs), b = LANES_LOAD(pairs + WIDTH);
-    *low = (real)(a.even, b.even);
-    *high = (real)(a.odd, b.odd);
-#endif
-}
-
 // Distance to the surface about a point in the head's frame, m, and the unit normal of the plane that the surface is
 // nearby, outwards in that frame: the trilinear distance, and the gradient of just that. In a crease, where the
 // gradient vanishes, along the head's y. Outside of the grid, what its border has and the way there.

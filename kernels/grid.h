@@ -64,21 +64,4 @@ static inline void add_strands_density(global int* density, global const float* 
         }
 }
 
-// Trilinear value of one component of the gradient, which lies component after component.
-static inline float3 fetch_gradient(global const float* gradient, float x, float y, float z, constant StepInfo* info)
-{
-    const GridPoint p = grid_point(x, y, z, info);
-    float3 sum = (float3)(0.0f);
-    if (p.voxel < 0)
-        return sum;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-        const int voxel = corner_voxel(p, corner);
-        const int plane = RESOLUTION * RESOLUTION * RESOLUTION;
-        sum +=
-            corner_weight(p, corner) * (float3)(gradient[voxel], gradient[voxel + plane], gradient[voxel + 2 * plane]);
-    }
-    return sum;
-}
-
 #endif

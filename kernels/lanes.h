@@ -55,6 +55,23 @@ static inline int any_lane(whole test)
 #endif
 }
 
+// Two values side by side for each lane.
+static inline void gather_pair(global const float* from, const int* first, real* low, real* high)
+{
+#if WIDTH == 1
+    *low = from[first[0]];
+    *high = from[first[0] + 1];
+#else
+    float pairs[2 * WIDTH];
+#pragma unroll
+    for (int lane = 0; lane < WIDTH; ++lane)
+        vstore2(vload2(0, from + first[lane]), lane, pairs);
+    const real a = LANES_LOAD(pairs), b = LANES_LOAD(pairs + WIDTH);
+    *low = (real)(a.even, b.even);
+    *high = (real)(a.odd, b.odd);
+#endif
+}
+
 // The smallest lane.
 static inline float least(real v)
 {

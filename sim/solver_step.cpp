@@ -293,7 +293,8 @@ void Solver::draw()
             launches_.emplace_back(
                 "add_head", run(device_, kernel("add_head", ""), buffers_,
                                 cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
-        launch("transmittance", "", side * side / size_t(chunk(device_, params_)));
+        launch("transmittance", "", side * side / size_t(chunk(device_, params_)),
+               device_.is_gpu ? 0 : side / size_t(chunk(device_, params_))); // few and long: groups for all cores
     }
     launch_strands("interpolate_multi", options + (groom_.tied.empty() ? "" : "-D TIED " + braided),
                    size_t(groom_.drawn_multi));

@@ -28,7 +28,8 @@ std::vector<BenchRow> bench_growth(const Benching& with)
             hair.push_back(std::make_unique<BenchHair>(
                 device, "bob",
                 std::vector<std::string>{"interpolation.guides=all", fmt::format("interpolation.strands={}", size),
-                                         "look.self_shadow=0", "forces.repulsion=0"}));
+                                         "look.self_shadow=0", "forces.repulsion=0", "wave.normal_amplitude=0",
+                                         "wave.binormal_amplitude=0"}));
             runs.push_back([h = hair.back().get(), frames] { return h->frames(frames, false); });
         }
         const std::vector<std::vector<BenchRow>> times = timed(runs, with.quick ? 3 : 7);

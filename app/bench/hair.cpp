@@ -8,7 +8,8 @@
 namespace coif
 {
 
-BenchHair::BenchHair(const Device& device, const std::string& preset, const std::vector<std::string>& sets)
+BenchHair::BenchHair(const Device& device, const std::string& preset, const std::vector<std::string>& sets,
+                     bool with_bodies)
     : motion_(find_motion("shake"))
 {
     Options options;
@@ -17,6 +18,8 @@ BenchHair::BenchHair(const Device& device, const std::string& preset, const std:
     const Hairstyle style = load_style(options);
     assets_ = load_assets(style);
     solver_ = std::make_unique<Solver>(device, style.params, grown(style, assets_), Pose{});
+    if (!with_bodies)
+        return;
     const PlacedGrid grid = head_grid(style, assets_);
     solver_->set_body(grid);
     solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));

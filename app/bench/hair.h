@@ -13,7 +13,8 @@ namespace coif
 class BenchHair
 {
   public:
-    BenchHair(const Device& device, const std::string& preset, const std::vector<std::string>& sets);
+    BenchHair(const Device& device, const std::string& preset, const std::vector<std::string>& sets,
+              bool with_bodies = true);
 
     // Some frames of 1/60 s, with the drawn strands if `drawn`: ms of each pass in one of them and, first, of the whole
     // frame on the clock.

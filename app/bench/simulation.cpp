@@ -1,6 +1,8 @@
 // What moving hair takes: a whole head of strands, and few of which many are drawn.
 #include "app/bench/hair.h"
 
+#include <fmt/format.h>
+
 namespace coif
 {
 
@@ -21,41 +23,53 @@ static void add_rows(std::vector<BenchRow>& all, std::vector<BenchRow> rows, Ben
     }
 }
 
+// The bob, but straight: waves that are bends of the strands are a price of their own.
+static std::vector<std::string> straight_bob(int strands, const std::vector<std::string>& more = {})
+{
+    std::vector<std::string> sets = {"interpolation.guides=all", fmt::format("interpolation.strands={}", strands),
+                                     "look.self_shadow=0",       "forces.repulsion=0",
+                                     "wave.normal_amplitude=0",  "wave.binormal_amplitude=0"};
+    sets.insert(sets.end(), more.begin(), more.end());
+    return sets;
+}
+
 std::vector<BenchRow> bench_whole_head(const Benching& with)
 {
-    const std::vector<std::string> all = {"interpolation.guides=all", "interpolation.strands=102400",
-                                          "look.self_shadow=0", "forces.repulsion=0", "forces.wind=[0, 0, 0]"};
-    const auto also = [&](std::vector<std::string> more)
-    {
-        more.insert(more.begin(), all.begin(), all.end());
-        return more;
-    };
+    constexpr int kStrands = 102400;
+    // Positions and velocities, read and written once.
+    const double floor_ms = 1e3 * kStrands * 16.0 * 3.0 * sizeof(float) * 4.0 / with.machine.bandwidth;
     struct HeadCase
     {
         const char* note;
         std::vector<std::string> sets;
+        bool with_bodies;
         double most_ms;
     };
-    const HeadCase kinds[] = {
-        {"lengths alone", also({"bending.droop=10000", "head.mesh=", "head.spheres="}), NAN},
-        {"bending, head", also({}), 1000.0 / 60.0},
-        {"wind and repulsion too", also({"forces.wind=[3, 0, 0]", "forces.repulsion=1"}), 1000.0 / 30.0},
+    const HeadCase cases[] = {
+        {"lengths alone", straight_bob(kStrands, {"bending.droop=10000"}), false, 5.0 * floor_ms},
+        {"bending, head", straight_bob(kStrands), true, 1000.0 / 60.0},
+        {"bending, head, tolerance 1 %: courant 1.8", straight_bob(kStrands, {"solver.courant=1.8"}), true, NAN},
+        {"bending, head, wind, repulsion", straight_bob(kStrands, {"forces.wind=[3, 0, 0]", "forces.repulsion=1"}),
+         true, 1000.0 / 30.0},
+        {"bending to waves, head",
+         straight_bob(kStrands, {"wave.normal_amplitude=0.002", "wave.binormal_amplitude=0.002"}), true, NAN},
     };
     std::vector<BenchRow> rows;
     std::vector<std::unique_ptr<BenchHair>> hair;
     std::vector<std::function<PassTimes()>> runs;
-    for (const HeadCase& kind : kinds)
+    for (const HeadCase& each : cases)
     {
-        with.progress(kind.note);
-        hair.push_back(std::make_unique<BenchHair>(with.device, "bob", kind.sets));
+        with.progress(each.note);
+        hair.push_back(std::make_unique<BenchHair>(with.device, "bob", each.sets, each.with_bodies));
         runs.push_back([h = hair.back().get()] { return h->frames(8, false); });
     }
+    with.progress("102,400 strands");
     const std::vector<std::vector<BenchRow>> times = timed(runs, with.quick ? 3 : 9);
     for (size_t i = 0; i < times.size(); ++i)
     {
         const size_t first = rows.size();
-        add_rows(rows, times[i], *hair[i], with, kinds[i].note);
-        rows[first].most_ms = kinds[i].most_ms;
+        add_rows(rows, times[i], *hair[i], with, cases[i].note);
+        rows[first].most_ms = cases[i].most_ms;
     }
     return rows;
 }
@@ -63,10 +77,8 @@ std::vector<BenchRow> bench_whole_head(const Benching& with)
 std::vector<BenchRow> bench_guides(const Benching& with)
 {
     std::vector<BenchRow> rows;
-    with.progress("4096 guides");
-    BenchHair many(
-        with.device, "bob",
-        {"interpolation.guides=all", "interpolation.strands=4096", "look.self_shadow=0", "forces.repulsion=0"});
+    with.progress("4096 strands");
+    BenchHair many(with.device, "bob", straight_bob(4096));
     BenchHair few(with.device, "bob", {"forces.wind=[3, 0, 0]", "forces.repulsion=1", "interpolation.strands=4096"});
     const std::vector<std::vector<BenchRow>> times =
         timed({[&] { return many.frames(24, false); }, [&] { return few.frames(24, true); }}, with.quick ? 5 : 21);
