@@ -51,12 +51,13 @@ struct Beside
     std::map<std::string, WidgetPlace> places; // of the last frame
 };
 
-// What a brush does between press and release.
+// What a brush, or a hand on a ring or a collider, does between press and release.
 struct Stroke
 {
     std::optional<glm::vec3> last; // where it was, in the head's frame, m before head.scale
     StrandShapes rest;             // of the hair when it began
     bool changed = false;          // the style, since it was last applied
+    double next = 0.0;             // s of the window's clock, before which it is not applied again
 };
 
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
@@ -132,7 +133,10 @@ class Editor
     void say(const std::string& message, bool error = false);
     void draw_files();
     void draw_beside();
+    void show_beside(bool on); // its window; without it there is only A
     void split(bool on);
+    std::string half_name(bool b) const;
+    void mark_halves(Image& both, int half) const;
     void follow(); // B goes on to A's time
     void morph(float at);
     int picture_width() const { return beside_.simulation ? std::max(1, view_width_ / 2) : view_width_; }
@@ -152,6 +156,8 @@ class Editor
     void settle_hair();
     void draw_brushes();
     void draw_brush_aim();
+    void draw_region_aim();
+    void end_stroke(); // what the mouse held is let go: one edit, with a name of its own
     void draw_ring();
     void draw_variants();
     void take_settings();

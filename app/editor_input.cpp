@@ -54,9 +54,7 @@ void Editor::handle_key(const SDL_Keysym& key)
         compare(true);
         break;
     case SDLK_a:
-        beside_.shown = !beside_.shown;
-        if (!beside_.shown)
-            split(false);
+        show_beside(!beside_.shown);
         break;
     case SDLK_v:
         style_.params.render_colors =
@@ -135,8 +133,7 @@ void Editor::handle_mouse(const SDL_Event& event)
     {
         if (held_.what == Grab::CUT)
             cut_along(held_.x, held_.y, event.button.x, event.button.y);
-        apply_strokes();
-        held_.what = Grab::NONE;
+        end_stroke();
     }
     else if (event.type == SDL_MOUSEWHEEL)
         zoom(camera_, event.wheel.y);
@@ -157,13 +154,13 @@ void Editor::handle_mouse(const SDL_Event& event)
             if (collider.to)
                 collider.to = glm::clamp(*collider.to + center - collider.center, -100.0f, 100.0f);
             collider.center = center;
-            apply();
+            stroke_.changed = true;
         }
         else if (held_.what == Grab::TIE)
         {
             style_.host.ties.at(held_.tie) =
                 dragged_tie(held_, *simulation_, camera_, x, y, picture_width(), view_height_);
-            apply();
+            stroke_.changed = true;
         }
         else if (held_.what == Grab::MOVE_HEAD || held_.what == Grab::TURN_HEAD)
             hand_ = dragged_head(held_, camera_, x, y, picture_width(), view_height_);

@@ -39,6 +39,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "a                     another style beside, morph\n"
                             "s                     shape: brushes, cut, freeze, variants\n"
                             "[ ]                   a smaller, a larger brush\n"
+                            "alt-click             takes the value under the brush\n"
                             "v                     colours: hair, stretch, density, kind, region, map\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
@@ -109,6 +110,22 @@ void Editor::draw_history()
 
 void Editor::draw_tools()
 {
+    const auto button = [](const char* label, const char* help)
+    {
+        const bool pressed = ImGui::Button(label);
+        explain(help);
+        return pressed;
+    };
+    // One that shows whether its window is open.
+    const auto toggle = [&](const char* label, bool on, const char* help)
+    {
+        if (on)
+            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        const bool pressed = button(label, help);
+        if (on)
+            ImGui::PopStyleColor();
+        return pressed;
+    };
     ImGui::SetNextItemWidth(115.0f);
     if (ImGui::BeginCombo("##open", style_.name().c_str()))
     {
@@ -117,68 +134,63 @@ void Editor::draw_tools()
                 open(file);
         ImGui::EndCombo();
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("open a preset; or drop a file onto the window");
+    explain("Opens a preset; or drop a file onto the window.");
     ImGui::SameLine();
-    if (ImGui::Button("Browse"))
+    if (toggle("Browse", browser_.shown, "b: presets with their pictures"))
         browse(!browser_.shown);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("b: presets with their pictures");
     ImGui::SameLine();
-    if (ImGui::Button(unsaved_ ? "Save *" : "Save") && !style_.file.empty())
-        save(style_.file);
+    if (button(unsaved_ ? "Save *" : "Save", "ctrl-s; a star where there is something to save"))
+    {
+        if (style_.file.empty())
+            ask_save_as_ = true;
+        else
+            save(style_.file);
+    }
     ImGui::SameLine();
-    if (ImGui::Button("Save as"))
+    if (button("Save as", "ctrl-shift-s: under another name"))
         ask_save_as_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("Open"))
+    if (button("Open", "ctrl-o: a preset, or a file by its path"))
         ask_open_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("?"))
+    if (toggle("?", show_help_, "h, F1: keys and mouse"))
         show_help_ = !show_help_;
 
-    if (ImGui::Button(paused_ ? "Play" : "Pause"))
+    if (button(paused_ ? "Play###pause" : "Pause###pause", "space: time stands still, the hair can still be shaped"))
         paused_ = !paused_;
     ImGui::SameLine();
-    if (ImGui::Button("Step"))
+    if (button("Step", "full stop: one step of time"))
         paused_ = step_once_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("Undo"))
+    if (button("Undo", "ctrl-z; redo: ctrl-shift-z; all that was done: u"))
         undo_last();
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("ctrl-z; redo: ctrl-shift-z; all that was done: u");
     ImGui::SameLine();
-    if (ImGui::Button("Reset"))
+    if (button("Reset", "r: the hair begins anew where it rests"))
         reset_hair();
     ImGui::SameLine();
-    if (ImGui::Button("Keep camera"))
+    if (button("Keep view", "k: the style opens with the camera as it is now"))
         keep_view();
     ImGui::SameLine();
-    if (ImGui::Button("Shape"))
+    if (toggle("Shape", brushing_, "s: brushes, scissors, freeze and variants"))
         brushing_ = !brushing_;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("s: brushes, scissors, freeze and variants");
     ImGui::SameLine();
-    if (ImGui::Button("A/B"))
-        beside_.shown = !beside_.shown;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("a: another style beside this one, or on the way to it");
+    if (toggle("A/B", beside_.shown, "a: another style beside this one, or on the way to it"))
+        show_beside(!beside_.shown);
     int key = 0;
     for (const std::string& motion : motion_names())
     {
+        if (key++)
+            ImGui::SameLine(0.0f, 3.0f);
         const bool on = simulation_->motion_name() == motion;
         if (on)
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (key++)
-            ImGui::SameLine(0.0f, 3.0f);
         if (ImGui::SmallButton(motion.c_str()))
             play(motion);
         if (on)
             ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("key %d", key);
+        explain(fmt::format("{}: moves the head so; esc stops it", key));
     }
-    if (ImGui::Button("Screenshot"))
+    if (button("Screenshot", "p, F12: what the view shows, without windows, into the folder that coif was started in"))
         screenshot();
     ImGui::SameLine();
     ImGui::SetNextItemWidth(110.0f);
@@ -189,15 +201,14 @@ void Editor::draw_tools()
                 screenshot_size_ = size;
         ImGui::EndCombo();
     }
+    explain("Pixels of the picture");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
     ImGui::InputTextWithHint("##picture", style_.name().c_str(), &screenshot_name_);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("name of the picture, a path if you like; a number and .png follow");
+    explain("Name of the picture, a path if you like; a number and .png follow.");
     ImGui::SameLine();
     ImGui::Checkbox("alpha", &transparent_);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("no backdrop");
+    explain("No backdrop: the picture is clear where there is neither head nor hair.");
 }
 
 // What a tolerance has chosen: in a line, and in full when that is opened.
@@ -245,7 +256,11 @@ void Editor::draw_status()
     if (healed_ > 0)
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "strands healed %ld times", healed_);
     if (!bad_strand_.empty())
+    {
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
+        ImGui::PopTextWrapPos();
+    }
     if (simulation_->solver().asleep())
         ImGui::Text("asleep: at rest, nothing runs");
     if (simulation_->dropped() > 0)
