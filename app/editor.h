@@ -176,6 +176,7 @@ class Editor
     Device device_;
     Hairstyle style_, saved_; // as edited; as last read or written
     History history_;
+    size_t history_seen_ = 0; // edits in its window
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written

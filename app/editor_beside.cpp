@@ -119,6 +119,7 @@ void Editor::draw_beside()
     bool open = true;
     if (ImGui::Begin("A and B", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
     {
+        keep_in_view(float(view_width_), float(view_height_));
         ImGui::AlignTextToFramePadding();
         ImGui::Text("A: %s", style_.name().c_str());
         ImGui::SameLine();
@@ -140,7 +141,7 @@ void Editor::draw_beside()
         explain("The style to compare with, or to morph into.");
         ImGui::SameLine();
         ImGui::BeginDisabled(!browser_.shown || browser_.selected.empty());
-        if (ImGui::Button("The browser's"))
+        if (ImGui::Button("from the browser"))
             put_beside(browser_.selected);
         ImGui::EndDisabled();
         explain("Takes what is chosen in the browser of presets (b) for B.");
@@ -203,24 +204,30 @@ void Editor::draw_legend()
         const glm::vec3 c = ramp_color(value);
         return IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255);
     };
-    const bool kinds = legend_.readings.size() == 2; // two sorts instead of a scale
-    ImGui::Dummy(ImVec2(width, kinds ? 2.0f * ImGui::GetTextLineHeight() : height + ImGui::GetTextLineHeight()));
-    for (size_t i = 0; i < legend_.readings.size(); ++i)
+    // Sorts have a line each, numbers a scale.
+    const size_t count = legend_.readings.size();
+    const bool sorts =
+        count == 2 || param_labels(*find_param("render.colors"))[size_t(style_.params.render_colors)] == "region";
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::Dummy(ImVec2(width, sorts ? float(count) * line : height + line));
+    for (size_t i = 0; i < count; ++i)
     {
         const char* text = legend_.readings[i].c_str();
-        if (kinds)
+        const float share = float(i) / float(count - 1);
+        if (sorts)
         {
-            const float y = low.y + float(i) * ImGui::GetTextLineHeight();
+            const float y = low.y + float(i) * line;
             draw.AddRectFilled(ImVec2(low.x, y + 2.0f), ImVec2(low.x + 24.0f, y + height),
-                               shade(i == 0 ? kMixedPlace : kCopyPlace));
+                               shade(count > 2 ? share
+                                     : i == 0  ? kMixedPlace
+                                               : kCopyPlace));
             draw.AddText(ImVec2(low.x + 32.0f, y), ImGui::GetColorU32(ImGuiCol_Text), text);
             continue;
         }
-        const float share = float(i) / float(legend_.readings.size() - 1);
         draw.AddText(ImVec2(low.x + share * (width - ImGui::CalcTextSize(text).x), low.y + height),
                      ImGui::GetColorU32(ImGuiCol_Text), text);
     }
-    for (int i = 0; i < 60 && !kinds; ++i)
+    for (int i = 0; i < 60 && !sorts; ++i)
         draw.AddRectFilled(ImVec2(low.x + float(i) * width / 60.0f, low.y),
                            ImVec2(low.x + float(i + 1) * width / 60.0f, low.y + height - 2.0f),
                            shade((float(i) + 0.5f) / 60.0f));

@@ -103,8 +103,10 @@ void Editor::draw_browser()
         b.files = hairstyles_in(b.folder);
         b.listed = now;
     }
-    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), 60.0f), ImGuiCond_FirstUseEver, ImVec2(0.5f, 0.0f));
-    ImGui::SetNextWindowSize(ImVec2(590.0f, 500.0f), ImGuiCond_FirstUseEver);
+    // Beside the head, two or three pictures wide.
+    ImGui::SetNextWindowPos(ImVec2(float(view_width_) - 8.0f, 8.0f), ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(view_width_ > 1000 ? 450.0f : 320.0f, 0.62f * float(view_height_)),
+                             ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints(ImVec2(320.0f, 240.0f), ImVec2(4096.0f, 4096.0f));
     bool open = true;
     if (!ImGui::Begin("presets", &open, ImGuiWindowFlags_NoCollapse))
@@ -112,10 +114,12 @@ void Editor::draw_browser()
         ImGui::End();
         return;
     }
+    keep_in_view(float(view_width_), float(view_height_));
     const fs::path shipped = data_folder() / "hairstyles", beside = fs::absolute(style_.file).parent_path();
     const auto title = [&](const fs::path& folder) { return folder == shipped ? "coif's own" : folder.string(); };
-    ImGui::SetNextItemWidth(220.0f);
-    if (ImGui::BeginCombo("##folder", fitting(title(b.folder), 180.0f).c_str()))
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
+    if (ImGui::BeginCombo("##folder",
+                          fitting(title(b.folder), 0.5f * ImGui::GetContentRegionAvail().x - 34.0f).c_str()))
     {
         std::vector<fs::path> folders = {shipped};
         for (const fs::path& more : {beside, b.folder})

@@ -159,9 +159,10 @@ void Editor::draw_ring()
     if (cutting_ || ImGui::GetIO().WantCaptureMouse)
         return;
     const std::optional<glm::vec3> at = on_scalp(double(mouse.x), double(mouse.y));
-    if (!at)
-        return;
     const Scalp& scalp = simulation_->assets().scalp;
+    if (!at || std::ranges::none_of(scalp.positions,
+                                    [&](const glm::vec3& root) { return glm::distance(root, *at) < brush_.radius; }))
+        return; // nothing grows there
     for (const float side : {1.0f, -1.0f})
     {
         if (side < 0.0f && !brush_.mirror)
@@ -260,6 +261,7 @@ void Editor::draw_brushes()
     ImGui::SetNextWindowBgAlpha(0.85f);
     if (ImGui::Begin("shape", &brushing_, ImGuiWindowFlags_AlwaysAutoResize))
     {
+        keep_in_view(float(view_width_), float(view_height_)); // each brush has widgets of its own
         for (int i = 0; i < kBrushKinds; ++i)
         {
             const BrushKind kind = BrushKind(i);
@@ -268,7 +270,7 @@ void Editor::draw_brushes()
             const bool chosen = !cutting_ && brush_.kind == kind;
             if (chosen)
                 ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-            if (ImGui::Button(brush_name(kind), ImVec2(64.0f, 0.0f)))
+            if (ImGui::Button(brush_name(kind), ImVec2(86.0f, 0.0f)))
             {
                 brush_.kind = kind;
                 cutting_ = false;

@@ -87,11 +87,14 @@ void Editor::draw_ui()
 // All that was done, the newest last; what was undone is grey.
 void Editor::draw_history()
 {
-    const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
-    ImGui::SetNextWindowPos(right_top, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
-    ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
+    // Below the browser, above the legend.
+    const ImVec2 low(float(view_width_) - 8.0f, 0.63f * float(view_height_));
+    ImGui::SetNextWindowPos(low, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(280.0f, 0.26f * float(view_height_)), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.8f);
     if (ImGui::Begin("what was done", &show_history_))
+    {
+        keep_in_view(float(view_width_), float(view_height_));
         for (size_t i = 0; i < history_.edits.size(); ++i)
         {
             ImGui::PushID(int(i));
@@ -105,6 +108,10 @@ void Editor::draw_history()
             if (chosen)
                 go_back(i);
         }
+        if (ImGui::IsWindowAppearing() || history_.edits.size() != history_seen_)
+            ImGui::SetScrollHereY(1.0f); // the newest is seen
+        history_seen_ = history_.edits.size();
+    }
     ImGui::End();
 }
 
@@ -268,10 +275,14 @@ void Editor::draw_status()
     double sum = 0.0;
     for (const auto& [pass, ms] : pass_ms_)
     {
-        ImGui::TextDisabled("%-20s %6.2f ms", pass.c_str(), ms);
+        ImGui::TextDisabled("%s", pass.c_str());
+        ImGui::SameLine(150.0f);
+        ImGui::TextDisabled("%6.2f ms", ms);
         sum += ms;
     }
-    ImGui::TextDisabled("%-20s %6.2f ms", "all passes", sum);
+    ImGui::TextDisabled("all passes");
+    ImGui::SameLine(150.0f);
+    ImGui::TextDisabled("%6.2f ms", sum);
     ImGui::TextDisabled("%s", device_.name.c_str());
     ImGui::TextDisabled("%s", renderer_->name().c_str());
     const float below = ImGui::GetWindowHeight() + 12.0f;

@@ -28,11 +28,22 @@ void explain(const std::string& text)
 {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f); // what is greyed is told of in plain
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+
+void keep_in_view(float width, float height)
+{
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float right = std::max(0.0f, width - size.x), bottom = std::max(0.0f, height - size.y);
+    const ImVec2 to(std::clamp(at.x, 0.0f, right), std::clamp(at.y, 0.0f, bottom));
+    if ((to.x != at.x || to.y != at.y) && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) // while it is dragged it may
+        ImGui::SetWindowPos(to);
 }
 
 // Ranges over several powers of ten want a logarithmic slider.

@@ -282,18 +282,20 @@ TEST_F(EditorWindow, two_styles_move_side_by_side_and_one_becomes_the_other)
     ASSERT_TRUE(until([&] { return fs::exists("style-001.png"); })) << editor->message();
     const Image both = load_png("style-001.png");
     EXPECT_EQ(both.width, editor->view_width());
-    // B's half is what a picture of it alone would be: an afro, wider than short hair.
-    const auto hair = [&](int left, int right)
-    {
-        int pixels = 0;
-        const unsigned char* corner = &both.pixels[size_t(4) * size_t(both.width) * size_t(both.height - 1)];
-        for (int y = both.height / 8; y < both.height; ++y)
-            for (int x = left; x < right; ++x)
-                pixels += std::abs(int(both.pixels[size_t(4 * (y * both.width + x))]) - int(corner[0])) > 30;
-        return pixels;
-    };
-    EXPECT_GT(hair(0, both.width / 2), 1000);
-    EXPECT_GT(hair(both.width / 2, both.width), hair(0, both.width / 2)) << "the afro is in it, on the right";
+    // The same head twice, from the same side: what differs between the halves is the hair.
+    const int half = both.width / 2;
+    const auto red = [&](int x, int y) { return int(both.pixels[size_t(4) * size_t(y * both.width + x)]); };
+    int heads[2] = {}, differ = 0; // pixels
+    for (int y = both.height / 8; y < both.height; ++y)
+        for (int x = 2; x < half; ++x)
+        {
+            heads[0] += std::abs(red(x, y) - red(2, y)) > 40;
+            heads[1] += std::abs(red(half + x, y) - red(half + 2, y)) > 40;
+            differ += std::abs(red(x, y) - red(half + x, y)) > 40;
+        }
+    EXPECT_GT(heads[0], both.height * half / 50);
+    EXPECT_GT(heads[1], both.height * half / 50);
+    EXPECT_GT(differ, both.height * half / 100) << "one of them has an afro";
     click(editor->beside().places.at("split"));
     EXPECT_TRUE(until([&] { return editor->beside().simulation == nullptr; }));
 
