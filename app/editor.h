@@ -109,6 +109,7 @@ class Editor
     };
     using Intent = std::variant<std::monostate, Close, std::filesystem::path, Recover>; // waits for unsaved changes
 
+    static constexpr float kMessageRoom = 44.0f; // pixels at the bottom of the view that windows leave to the message
     static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
 
     void measure_quality();
@@ -219,8 +220,8 @@ class Editor
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
     int redraw_ = 1; // frames that are still to be drawn though time may stand still
-    bool show_panel_ = true, show_help_ = false, show_history_ = false, comparing_ = false, ask_save_as_ = false,
-         ask_open_ = false, transparent_ = false;
+    bool show_panel_ = true, show_times_ = false, show_help_ = false, show_history_ = false, comparing_ = false,
+         ask_save_as_ = false, ask_open_ = false, transparent_ = false;
     bool message_is_error_ = false;
     double frame_ms_ = 0.0;
     Uint64 last_tick_ = 0;

@@ -114,12 +114,12 @@ void Editor::mark_halves(Image& both, int half) const
 void Editor::draw_beside()
 {
     beside_.places.clear();
-    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), float(view_height_) - 40.0f), ImGuiCond_FirstUseEver,
-                            ImVec2(0.5f, 1.0f));
+    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), float(view_height_) - kMessageRoom),
+                            ImGuiCond_FirstUseEver, ImVec2(0.5f, 1.0f));
     bool open = true;
     if (ImGui::Begin("A and B", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
     {
-        keep_in_view(float(view_width_), float(view_height_));
+        keep_in_view(float(view_width_), float(view_height_) - kMessageRoom);
         ImGui::AlignTextToFramePadding();
         ImGui::Text("A: %s", style_.name().c_str());
         ImGui::SameLine();

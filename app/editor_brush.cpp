@@ -257,11 +257,12 @@ void Editor::draw_region_aim()
 
 void Editor::draw_brushes()
 {
-    ImGui::SetNextWindowPos(ImVec2(8.0f, float(view_height_) - 8.0f), ImGuiCond_FirstUseEver, ImVec2(0.0f, 1.0f));
+    ImGui::SetNextWindowPos(ImVec2(8.0f, float(view_height_) - kMessageRoom), ImGuiCond_FirstUseEver,
+                            ImVec2(0.0f, 1.0f));
     ImGui::SetNextWindowBgAlpha(0.85f);
     if (ImGui::Begin("shape", &brushing_, ImGuiWindowFlags_AlwaysAutoResize))
     {
-        keep_in_view(float(view_width_), float(view_height_)); // each brush has widgets of its own
+        keep_in_view(float(view_width_), float(view_height_) - kMessageRoom); // each brush has widgets of its own
         for (int i = 0; i < kBrushKinds; ++i)
         {
             const BrushKind kind = BrushKind(i);

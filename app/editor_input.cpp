@@ -89,6 +89,9 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_F5:
         guarded([&] { renderer_->reload_shaders(); });
         break;
+    case SDLK_t:
+        show_times_ = !show_times_;
+        break;
     case SDLK_TAB:
         show_panel_ = !show_panel_;
         break;

@@ -41,6 +41,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "[ ]                   a smaller, a larger brush\n"
                             "alt-click             takes the value under the brush\n"
                             "v                     colours: hair, stretch, density, kind, region, map\n"
+                            "t                     times of the passes, device\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -272,19 +273,24 @@ void Editor::draw_status()
         ImGui::Text("asleep: at rest, nothing runs");
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
-    double sum = 0.0;
-    for (const auto& [pass, ms] : pass_ms_)
+    if (show_times_)
     {
-        ImGui::TextDisabled("%s", pass.c_str());
-        ImGui::SameLine(150.0f);
-        ImGui::TextDisabled("%6.2f ms", ms);
-        sum += ms;
+        double sum = 0.0;
+        const auto row = [](const std::string& pass, double ms)
+        {
+            ImGui::TextDisabled("%s", pass.c_str());
+            ImGui::SameLine(150.0f);
+            ImGui::TextDisabled("%6.2f ms", ms);
+        };
+        for (const auto& [pass, ms] : pass_ms_)
+        {
+            row(pass, ms);
+            sum += ms;
+        }
+        row("all passes", sum);
+        ImGui::TextDisabled("%s", device_.name.c_str());
+        ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
-    ImGui::TextDisabled("all passes");
-    ImGui::SameLine(150.0f);
-    ImGui::TextDisabled("%6.2f ms", sum);
-    ImGui::TextDisabled("%s", device_.name.c_str());
-    ImGui::TextDisabled("%s", renderer_->name().c_str());
     const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
     if (!simulation_->quality().said.empty())
