@@ -14,8 +14,8 @@ namespace coif
 
 const char* brush_name(BrushKind kind)
 {
-    static const char* const names[kBrushKinds] = {"comb",    "length", "lift",   "wave",
-                                                   "density", "color",  "smooth", "erase"};
+    static const char* const names[kBrushKinds] = {"comb",  "length", "lift",   "wave", "density",
+                                                   "color", "region", "smooth", "erase"};
     return names[int(kind)];
 }
 
@@ -28,8 +28,9 @@ const char* brush_help(BrushKind kind)
         "Lays waves of this height on straight or wavy hair.",
         "Thins hair out to this share, or lets it grow back.",
         "Dyes roots, tips or both.",
-        "Evens out what brushes have painted.",
-        "Takes away what brushes have painted.",
+        "Makes roots a part of a region, or no part of it.\nWhat a region changes is set in the panel.",
+        "Evens out what brushes have painted, but for regions.",
+        "Takes away what brushes have painted, but for regions.",
     };
     return help[int(kind)];
 }
@@ -104,6 +105,53 @@ static bool paint_color(Hairstyle& style, const char* of, const Scalp& scalp, co
         over[3] = cover;
     }
     return map != before;
+}
+
+bool is_painted_only(const Region& region)
+{
+    return region.where.empty() && region.planes.empty() && region.group.empty() && !region.invert;
+}
+
+// The region of that name, as a painted map. One that is told by a rule stays what it is, as well as vertices can say.
+static Region& painted_region(Hairstyle& style, const std::string& name, const Scalp& scalp)
+{
+    std::vector<Region>& regions = style.host.regions;
+    const size_t index = size_t(std::ranges::find(regions, name, &Region::name) - regions.begin());
+    if (index == regions.size())
+    {
+        Region& fresh = regions.emplace_back();
+        fresh.name = name;
+        fresh.weights.resize(scalp.positions.size(), 0.0f);
+    }
+    Region& region = regions[index];
+    if (region.weights.size() == scalp.positions.size() && is_painted_only(region))
+        return region;
+    const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
+    std::vector<float> weights;
+    for (size_t v = 0; v < scalp.positions.size(); ++v)
+        weights.push_back(region_weight(shaping, index, at_vertex(scalp, v)));
+    region.weights = weights;
+    region.where.clear();
+    region.planes.clear();
+    region.group.clear();
+    region.invert = false;
+    return region;
+}
+
+static bool paint_region(Hairstyle& style, const Brush& brush, const Scalp& scalp, const std::vector<float>& weights)
+{
+    const bool there = std::ranges::find(style.host.regions, brush.region, &Region::name) != style.host.regions.end();
+    if (brush.region.empty() || (!there && brush.weight <= 0.0f))
+        return false;
+    const std::vector<Region> before = style.host.regions;
+    Region& region = painted_region(style, brush.region, scalp);
+    for (size_t v = 0; v < weights.size(); ++v)
+    {
+        const float by = weights[v] * (std::clamp(brush.weight, 0.0f, 1.0f) - region.weights[v]);
+        if (std::abs(by) > 1e-6f)
+            region.weights[v] += by;
+    }
+    return style.host.regions != before;
 }
 
 static std::vector<std::vector<unsigned>> neighbors_of(const Scalp& scalp)
@@ -189,11 +237,12 @@ template <typename Turn> static void turn_segments(glm::vec3* p, size_t nodes, T
 // Outer nodes turn less than roots.
 static float fade_along(size_t segment, size_t nodes) { return 1.0f - 0.6f * float(segment) / float(nodes); }
 
-// Turns each strand about its root's normal so that it goes where the brush goes.
+// Turns each strand about its root's normal so that it goes where the brush goes; on the line between two mirrored
+// halves, to neither side.
 static bool comb(Hairstyle& style, const Scalp& scalp, const StrandShapes& rest, const std::vector<float>& weights,
-                 glm::vec3 along)
+                 glm::vec3 way_of_brush, bool mirror)
 {
-    const float way = glm::length(along);
+    const float way = glm::length(way_of_brush);
     std::optional<StrandShapes> shapes = rest_of(style, scalp, rest);
     if (!(way > 1e-5f) || !shapes)
         return false;
@@ -201,6 +250,8 @@ static bool comb(Hairstyle& style, const Scalp& scalp, const StrandShapes& rest,
     bool changed = false;
     for (size_t v = 0; v < weights.size(); ++v)
     {
+        const bool middle = mirror && std::abs(scalp.positions[v].x) < 1e-4f;
+        const glm::vec3 along = way_of_brush * glm::vec3(middle ? 0.0f : 1.0f, 1.0f, 1.0f);
         const glm::vec3 n = scalp.normals[v], flat_way = along - n * glm::dot(along, n);
         if (weights[v] <= 0.0f || !(glm::length(flat_way) > 0.1f * way))
             continue;
@@ -267,14 +318,16 @@ bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shape
             break;
         const glm::vec3 mirrored(side, 1.0f, 1.0f);
         std::vector<float> weights;
+        const bool right = (touch.at.x < 0.0f) == (side > 0.0f); // the half that this touch is on
         for (const glm::vec3& root : scalp.positions)
-            weights.push_back(brush_weight(brush, touch.at * mirrored, root));
+            weights.push_back(
+                brush.mirror && (root.x < 0.0f) != right ? 0.0f : brush_weight(brush, touch.at * mirrored, root));
         if (std::ranges::all_of(weights, [](float w) { return w <= 0.0f; }))
             continue;
         switch (brush.kind)
         {
         case BrushKind::COMB:
-            changed |= comb(style, scalp, shapes, weights, touch.along * mirrored);
+            changed |= comb(style, scalp, shapes, weights, touch.along * mirrored, brush.mirror);
             break;
         case BrushKind::LENGTH:
             changed |= paint_number(style, "strand.length", scalp, weights, all(brush.length));
@@ -297,6 +350,9 @@ bool apply_brush(Hairstyle& style, const Scalp& scalp, const StrandShapes& shape
                 changed |= paint_color(style, "look.root_color", scalp, weights, brush.color);
             if (brush.color_of != 0)
                 changed |= paint_color(style, "look.tip_color", scalp, weights, brush.color);
+            break;
+        case BrushKind::REGION:
+            changed |= paint_region(style, brush, scalp, weights);
             break;
         case BrushKind::SMOOTH:
             changed |= smooth(style, scalp, weights);
@@ -340,6 +396,9 @@ void pick_value(Brush& brush, const Hairstyle& style, const Scalp& scalp, glm::v
             nearest = v;
     const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
     const HairParams p = params_at(shaping, at_vertex(scalp, nearest));
+    for (size_t r = 0; r < style.host.regions.size(); ++r) // the last one has the last word on the hair too
+        if (region_weight(shaping, r, at_vertex(scalp, nearest)) > 0.5f)
+            brush.region = style.host.regions[r].name;
     brush.length = p.strand_length;
     brush.lift = p.root_lift;
     brush.wave = p.wave_normal_amplitude;

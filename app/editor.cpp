@@ -22,14 +22,6 @@ static constexpr double kSettle = 1.5;             // s that a style lives befor
 static constexpr Uint32 kIdleWait = 50;            // ms between looks at a paused window
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
-// When a file was last written, as far as can be told.
-std::filesystem::file_time_type written_at(const std::filesystem::path& file)
-{
-    std::error_code error;
-    const auto time = std::filesystem::last_write_time(file, error);
-    return error ? std::filesystem::file_time_type::min() : time;
-}
-
 void Editor::guarded(const std::function<void()>& action)
 {
     try
@@ -151,6 +143,7 @@ void Editor::show(const Hairstyle& fresh, const Hairstyle& saved)
 
 void Editor::go_back(size_t edit)
 {
+    held_.what = Grab::NONE;
     note_edit(history_, style_, saved_); // what is still being done
     const size_t before = history_.now;
     const Edit state = go_to(history_, edit);
@@ -224,6 +217,8 @@ bool Editor::save(const std::filesystem::path& file)
             note_save(history_, saved_);
             known_time_ = written_at(file);
             watch_.know(file);
+            for (const std::filesystem::path& beside : files_beside(style_))
+                watch_.know(beside);
             theirs_.reset();
             gone_ = false;
             simulation_->set_style(style_);
@@ -243,11 +238,26 @@ std::filesystem::path Editor::screenshot()
     guarded(
         [&]
         {
-            simulation_->solver().draw();
-            FrameInput input = frame_input(*simulation_, camera_);
-            input.samples = 16;
-            input.transparent = transparent_;
-            save_png(file, renderer_->picture(input, width, height));
+            const auto picture = [&](Simulation& simulation, Renderer& renderer, int wide)
+            {
+                simulation.solver().draw();
+                FrameInput input = frame_input(simulation, camera_);
+                input.samples = 16;
+                input.transparent = transparent_;
+                return renderer.picture(input, wide, height);
+            };
+            if (beside_.simulation)
+            {
+                Image both{width, height, std::vector<unsigned char>(size_t(4) * size_t(width) * size_t(height))};
+                const int half = std::max(1, width / 2);
+                paste(both, picture(*simulation_, *renderer_, half), 0, 0);
+                paste(both, picture(*beside_.simulation, *beside_.renderer, width - half), half, 0);
+                if (!transparent_)
+                    mark_halves(both, half);
+                save_png(file, both);
+            }
+            else
+                save_png(file, picture(*simulation_, *renderer_, width));
             message_ = "wrote " + std::filesystem::absolute(file).string();
             message_is_error_ = false;
         });

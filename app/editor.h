@@ -51,12 +51,13 @@ struct Beside
     std::map<std::string, WidgetPlace> places; // of the last frame
 };
 
-// What a brush does between press and release.
+// What a brush, or a hand on a ring or a collider, does between press and release.
 struct Stroke
 {
     std::optional<glm::vec3> last; // where it was, in the head's frame, m before head.scale
     StrandShapes rest;             // of the hair when it began
     bool changed = false;          // the style, since it was last applied
+    double next = 0.0;             // s of the window's clock, before which it is not applied again
 };
 
 // The editor: one window, one hairstyle that lives in it. frame() does one round of events, steps and drawing; tests
@@ -108,6 +109,7 @@ class Editor
     };
     using Intent = std::variant<std::monostate, Close, std::filesystem::path, Recover>; // waits for unsaved changes
 
+    static constexpr float kMessageRoom = 44.0f; // pixels at the bottom of the view that windows leave to the message
     static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
 
     void measure_quality();
@@ -132,7 +134,10 @@ class Editor
     void say(const std::string& message, bool error = false);
     void draw_files();
     void draw_beside();
+    void show_beside(bool on); // its window; without it there is only A
     void split(bool on);
+    std::string half_name(bool b) const;
+    void mark_halves(Image& both, int half) const;
     void follow(); // B goes on to A's time
     void morph(float at);
     int picture_width() const { return beside_.simulation ? std::max(1, view_width_ / 2) : view_width_; }
@@ -152,6 +157,8 @@ class Editor
     void settle_hair();
     void draw_brushes();
     void draw_brush_aim();
+    void draw_region_aim();
+    void end_stroke(); // what the mouse held is let go: one edit, with a name of its own
     void draw_ring();
     void draw_variants();
     void take_settings();
@@ -170,6 +177,7 @@ class Editor
     Device device_;
     Hairstyle style_, saved_; // as edited; as last read or written
     History history_;
+    size_t history_seen_ = 0; // edits in its window
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
@@ -212,8 +220,8 @@ class Editor
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
     int redraw_ = 1; // frames that are still to be drawn though time may stand still
-    bool show_panel_ = true, show_help_ = false, show_history_ = false, comparing_ = false, ask_save_as_ = false,
-         ask_open_ = false, transparent_ = false;
+    bool show_panel_ = true, show_times_ = false, show_help_ = false, show_history_ = false, comparing_ = false,
+         ask_save_as_ = false, ask_open_ = false, transparent_ = false;
     bool message_is_error_ = false;
     double frame_ms_ = 0.0;
     Uint64 last_tick_ = 0;

@@ -1,6 +1,7 @@
 // Two styles in one window, in the same motion at the same time; the way from one to the other; and the legend of what
 // the strands' colours tell.
 #include "app/editor.h"
+#include "app/lettering.h"
 #include "app/morph.h"
 #include "sim/error.h"
 #include "sim/source.h"
@@ -16,12 +17,6 @@ namespace coif
 
 namespace fs = std::filesystem;
 
-static WidgetPlace last_place()
-{
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    return {low.x, low.y, high.x, high.y};
-}
-
 void Editor::put_beside(const fs::path& file)
 {
     guarded(
@@ -34,6 +29,13 @@ void Editor::put_beside(const fs::path& file)
                 split(true);
         });
     redraw_ = kRedraw;
+}
+
+void Editor::show_beside(bool on)
+{
+    beside_.shown = on;
+    if (!on)
+        split(false);
 }
 
 // Both begin the motion anew, so that they are at the same time of it.
@@ -88,14 +90,36 @@ void Editor::morph(float at)
     apply();
 }
 
+std::string Editor::half_name(bool b) const
+{
+    return b ? "B: " + beside_.style->name() : "A: " + style_.name() + (unsaved_ ? " *" : "");
+}
+
+// A picture of both, marked as the window is.
+void Editor::mark_halves(Image& both, int half) const
+{
+    const int letters = std::max(12, both.height / 48), gap = letters / 2;
+    if (half < 8 * letters || both.height < 4 * letters)
+        return;
+    fill(both, half, 0, 1, both.height, {120, 120, 120});
+    for (const bool b : {false, true})
+    {
+        const TextLine line = line_of(half_name(b), letters, half - 4 * gap);
+        const int left = (b ? both.width : half) - line.width - 2 * gap;
+        fill(both, left - gap, gap, line.width + 2 * gap, line.height + gap, {34, 36, 40});
+        write_line(both, line, left, gap + gap / 2, {235, 235, 235});
+    }
+}
+
 void Editor::draw_beside()
 {
     beside_.places.clear();
-    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), float(view_height_) - 40.0f), ImGuiCond_FirstUseEver,
-                            ImVec2(0.5f, 1.0f));
+    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), float(view_height_) - kMessageRoom),
+                            ImGuiCond_FirstUseEver, ImVec2(0.5f, 1.0f));
     bool open = true;
     if (ImGui::Begin("A and B", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
     {
+        keep_in_view(float(view_width_), float(view_height_) - kMessageRoom);
         ImGui::AlignTextToFramePadding();
         ImGui::Text("A: %s", style_.name().c_str());
         ImGui::SameLine();
@@ -113,38 +137,34 @@ void Editor::draw_beside()
                     put_beside(file);
             ImGui::EndCombo();
         }
-        beside_.places["b"] = last_place();
+        beside_.places["b"] = last_widget();
+        explain("The style to compare with, or to morph into.");
         ImGui::SameLine();
         ImGui::BeginDisabled(!browser_.shown || browser_.selected.empty());
-        if (ImGui::Button("The browser's"))
+        if (ImGui::Button("from the browser"))
             put_beside(browser_.selected);
         ImGui::EndDisabled();
-        if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-            ImGui::SetTooltip("takes what is chosen in the browser of presets for B");
+        explain("Takes what is chosen in the browser of presets (b) for B.");
         ImGui::BeginDisabled(!beside_.style);
         bool side_by_side = beside_.simulation != nullptr;
         if (ImGui::Checkbox("side by side", &side_by_side))
             split(side_by_side);
-        beside_.places["split"] = last_place();
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("both in the same motion, at the same time");
+        beside_.places["split"] = last_widget();
+        explain("Both in the same motion, at the same time, each in a half of the window.");
         ImGui::SameLine();
         ImGui::SetNextItemWidth(200.0f);
         float percent = 100.0f * beside_.at;
         if (ImGui::SliderFloat("morph A to B", &percent, 0.0f, 100.0f, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
             morph(0.01f * percent);
-        beside_.places["morph"] = last_place();
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("numbers and colours go over; choices, files and colliders switch in the middle.\n"
-                              "Save as keeps what came of it.");
+        beside_.places["morph"] = last_widget();
+        explain(
+            "Numbers and colours go over; choices, files and colliders switch in the middle. Save as keeps what came "
+            "of it.");
         ImGui::EndDisabled();
     }
     ImGui::End();
     if (!open)
-    {
-        beside_.shown = false;
-        split(false);
-    }
+        show_beside(false);
     if (!beside_.simulation)
         return;
     // Whose half is whose, and a line between them.
@@ -153,7 +173,7 @@ void Editor::draw_beside()
     draw.AddLine(ImVec2(half, 0.0f), ImVec2(half, float(view_height_)), IM_COL32(255, 255, 255, 90));
     for (const bool b : {false, true})
     {
-        const std::string text = b ? "B: " + beside_.style->name() : "A: " + style_.name() + (unsaved_ ? " *" : "");
+        const std::string text = half_name(b);
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const ImVec2 at(half * (b ? 2.0f : 1.0f) - size.x - 12.0f, 10.0f);
         draw.AddRectFilled(ImVec2(at.x - 6.0f, at.y - 3.0f), ImVec2(at.x + size.x + 6.0f, at.y + size.y + 3.0f),
@@ -184,24 +204,30 @@ void Editor::draw_legend()
         const glm::vec3 c = ramp_color(value);
         return IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255);
     };
-    const bool kinds = legend_.readings.size() == 2; // two sorts instead of a scale
-    ImGui::Dummy(ImVec2(width, kinds ? 2.0f * ImGui::GetTextLineHeight() : height + ImGui::GetTextLineHeight()));
-    for (size_t i = 0; i < legend_.readings.size(); ++i)
+    // Sorts have a line each, numbers a scale.
+    const size_t count = legend_.readings.size();
+    const bool sorts =
+        count == 2 || param_labels(*find_param("render.colors"))[size_t(style_.params.render_colors)] == "region";
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::Dummy(ImVec2(width, sorts ? float(count) * line : height + line));
+    for (size_t i = 0; i < count; ++i)
     {
         const char* text = legend_.readings[i].c_str();
-        if (kinds)
+        const float share = float(i) / float(count - 1);
+        if (sorts)
         {
-            const float y = low.y + float(i) * ImGui::GetTextLineHeight();
+            const float y = low.y + float(i) * line;
             draw.AddRectFilled(ImVec2(low.x, y + 2.0f), ImVec2(low.x + 24.0f, y + height),
-                               shade(i == 0 ? kMixedPlace : kCopyPlace));
+                               shade(count > 2 ? share
+                                     : i == 0  ? kMixedPlace
+                                               : kCopyPlace));
             draw.AddText(ImVec2(low.x + 32.0f, y), ImGui::GetColorU32(ImGuiCol_Text), text);
             continue;
         }
-        const float share = float(i) / float(legend_.readings.size() - 1);
         draw.AddText(ImVec2(low.x + share * (width - ImGui::CalcTextSize(text).x), low.y + height),
                      ImGui::GetColorU32(ImGuiCol_Text), text);
     }
-    for (int i = 0; i < 60 && !kinds; ++i)
+    for (int i = 0; i < 60 && !sorts; ++i)
         draw.AddRectFilled(ImVec2(low.x + float(i) * width / 60.0f, low.y),
                            ImVec2(low.x + float(i + 1) * width / 60.0f, low.y + height - 2.0f),
                            shade((float(i) + 0.5f) / 60.0f));

@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 static constexpr float kCell = 128.0f;    // pixels a side of a picture
 static constexpr double kListEvery = 1.0; // s
 
-static WidgetPlace last_place()
-{
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    return {low.x, low.y, high.x, high.y};
-}
-
 void Editor::browse(bool on)
 {
     browser_.shown = on;
@@ -109,8 +103,10 @@ void Editor::draw_browser()
         b.files = hairstyles_in(b.folder);
         b.listed = now;
     }
-    ImGui::SetNextWindowPos(ImVec2(0.5f * float(view_width_), 60.0f), ImGuiCond_FirstUseEver, ImVec2(0.5f, 0.0f));
-    ImGui::SetNextWindowSize(ImVec2(590.0f, 500.0f), ImGuiCond_FirstUseEver);
+    // Beside the head, two or three pictures wide.
+    ImGui::SetNextWindowPos(ImVec2(float(view_width_) - 8.0f, 8.0f), ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(view_width_ > 1000 ? 450.0f : 320.0f, 0.62f * float(view_height_)),
+                             ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints(ImVec2(320.0f, 240.0f), ImVec2(4096.0f, 4096.0f));
     bool open = true;
     if (!ImGui::Begin("presets", &open, ImGuiWindowFlags_NoCollapse))
@@ -118,10 +114,12 @@ void Editor::draw_browser()
         ImGui::End();
         return;
     }
+    keep_in_view(float(view_width_), float(view_height_));
     const fs::path shipped = data_folder() / "hairstyles", beside = fs::absolute(style_.file).parent_path();
     const auto title = [&](const fs::path& folder) { return folder == shipped ? "coif's own" : folder.string(); };
-    ImGui::SetNextItemWidth(220.0f);
-    if (ImGui::BeginCombo("##folder", fitting(title(b.folder), 180.0f).c_str()))
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
+    if (ImGui::BeginCombo("##folder",
+                          fitting(title(b.folder), 0.5f * ImGui::GetContentRegionAvail().x - 34.0f).c_str()))
     {
         std::vector<fs::path> folders = {shipped};
         for (const fs::path& more : {beside, b.folder})
@@ -136,14 +134,13 @@ void Editor::draw_browser()
             }
         ImGui::EndCombo();
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", b.folder.c_str());
+    explain(b.folder.string());
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::InputTextWithHint("##name", "find by name", &b.filter);
-    b.places["filter"] = last_place();
+    b.places["filter"] = last_widget();
 
-    const auto ask = [&](const char* label, bool possible, const std::string& name)
+    const auto ask = [&](const char* label, bool possible, const std::string& name, const char* help)
     {
         ImGui::BeginDisabled(!possible);
         if (ImGui::Button(label))
@@ -151,7 +148,8 @@ void Editor::draw_browser()
             b.asked = label;
             b.name = name;
         }
-        b.places[label] = last_place();
+        b.places[label] = last_widget();
+        explain(help);
         ImGui::EndDisabled();
         ImGui::SameLine();
     };
@@ -162,12 +160,13 @@ void Editor::draw_browser()
     ImGui::BeginDisabled(!chosen);
     if (ImGui::Button("Open") && chosen)
         this->open(b.selected);
-    b.places["Open"] = last_place();
+    b.places["Open"] = last_widget();
+    explain("Opens what is chosen, as a double click on its picture does.");
     ImGui::EndDisabled();
     ImGui::SameLine();
-    ask("New", true, unused_hairstyle(b.folder, "new"));
-    ask("Duplicate", chosen, chosen ? unused_hairstyle(b.folder, stem) : "");
-    ask("Rename", chosen, stem);
+    ask("New", true, unused_hairstyle(b.folder, "new"), "A plain hairstyle in this folder.");
+    ask("Duplicate", chosen, chosen ? unused_hairstyle(b.folder, stem) : "", "A copy with all that lies beside it.");
+    ask("Rename", chosen, stem, "Gives the file another name.");
     ImGui::BeginDisabled(!chosen);
     if (ImGui::Button("Delete"))
     {
@@ -175,10 +174,9 @@ void Editor::draw_browser()
         change_preset();
         b.asked.clear();
     }
-    b.places["Delete"] = last_place();
+    b.places["Delete"] = last_widget();
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("moves it into the folder 'trash' there");
+    explain("Moves it into the folder 'trash' beside it.");
 
     const std::vector<fs::path> shown = filtered(b.files, b.filter);
     ImGui::BeginChild("pictures");
@@ -197,7 +195,7 @@ void Editor::draw_browser()
         {
             if (draw_thumbnail(file))
                 b.selected = file;
-            b.places[file.filename().string()] = last_place();
+            b.places[file.filename().string()] = last_widget();
             if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
                 wanted = file;
             const bool current = file == fs::absolute(style_.file);
@@ -306,7 +304,10 @@ void Editor::take_settings()
         browse(true);
     SDL_Rect room;
     if (settings_.width > 0 && settings_.height > 0 && SDL_GetDisplayUsableBounds(0, &room) == 0)
+    {
         SDL_SetWindowSize(window_.sdl(), std::min(settings_.width, room.w), std::min(settings_.height, room.h));
+        SDL_SetWindowPosition(window_.sdl(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED); // all of it is seen
+    }
 }
 
 // Where something has changed. That it cannot be written is told once, and nobody loses work by it.

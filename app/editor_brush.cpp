@@ -1,6 +1,8 @@
 // Brushes in the view: what the mouse does with one, its ring on the scalp, and the window that they are chosen in.
 #include "app/editor.h"
+#include "app/panel_lists.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
@@ -52,11 +54,43 @@ void Editor::stroke(double x, double y, bool begins)
     stroke_.last = at;
 }
 
-// Once a frame, however many events there were.
+// Once a frame, however many events there were; and where hair takes long to grow and drape, at most a third of the
+// time, so that the hand can still be followed.
 void Editor::apply_strokes()
 {
-    if (std::exchange(stroke_.changed, false))
-        apply();
+    if (!stroke_.changed)
+        return;
+    const double began = double(SDL_GetTicks64()) * 1e-3;
+    if (held_.what != Grab::NONE && began < stroke_.next)
+    {
+        redraw_ = kRedraw; // comes back to it
+        return;
+    }
+    stroke_.changed = false;
+    apply();
+    const double ended = double(SDL_GetTicks64()) * 1e-3;
+    stroke_.next = ended + 2.0 * (ended - began);
+}
+
+void Editor::end_stroke()
+{
+    const Grab::What what = std::exchange(held_.what, Grab::NONE);
+    apply_strokes();
+    if (what == Grab::BRUSH && brush_.kind == BrushKind::REGION)
+    {
+        const auto region = std::ranges::find(style_.host.regions, brush_.region, &Region::name);
+        if (note_edit(history_, style_, saved_, fmt::format("painted {}", brush_.region)) &&
+            region != style_.host.regions.end() && region->settings.empty())
+            say(fmt::format("{} changes nothing yet: set what it does in the panel, under region", brush_.region));
+    }
+    else if (what == Grab::BRUSH)
+        note_edit(history_, style_, saved_, fmt::format("brush: {}", brush_name(brush_.kind)));
+    else if (what == Grab::CUT)
+        note_edit(history_, style_, saved_, "cut straight");
+    else if (what == Grab::COLLIDER)
+        note_edit(history_, style_, saved_, fmt::format("moved collider {}", held_.collider + 1));
+    else if (what == Grab::TIE)
+        note_edit(history_, style_, saved_, fmt::format("moved tie {}", style_.host.ties.at(held_.tie).name));
 }
 
 // Cuts all that hangs below a line across the view.
@@ -125,9 +159,10 @@ void Editor::draw_ring()
     if (cutting_ || ImGui::GetIO().WantCaptureMouse)
         return;
     const std::optional<glm::vec3> at = on_scalp(double(mouse.x), double(mouse.y));
-    if (!at)
-        return;
     const Scalp& scalp = simulation_->assets().scalp;
+    if (!at || std::ranges::none_of(scalp.positions,
+                                    [&](const glm::vec3& root) { return glm::distance(root, *at) < brush_.radius; }))
+        return; // nothing grows there
     for (const float side : {1.0f, -1.0f})
     {
         if (side < 0.0f && !brush_.mirror)
@@ -178,6 +213,9 @@ void Editor::draw_brush_aim()
         ImGui::ColorEdit3("color", &brush_.color.x);
         ImGui::Combo("of", &brush_.color_of, "roots\0tips\0both\0");
         break;
+    case BrushKind::REGION:
+        draw_region_aim();
+        break;
     case BrushKind::COMB:
     case BrushKind::SMOOTH:
     case BrushKind::ERASE:
@@ -185,62 +223,91 @@ void Editor::draw_brush_aim()
     }
 }
 
+// Which region is painted, and how.
+void Editor::draw_region_aim()
+{
+    const std::vector<Region>& regions = style_.host.regions;
+    const auto chosen = std::ranges::find(regions, brush_.region, &Region::name);
+    if (ImGui::BeginCombo("region", chosen == regions.end() ? "a new one" : chosen->name.c_str()))
+    {
+        for (const Region& region : regions)
+            if (ImGui::Selectable(region.name.c_str(), region.name == brush_.region))
+                brush_.region = region.name;
+        if (ImGui::Selectable("a new one", chosen == regions.end()))
+            brush_.region.clear();
+        ImGui::EndCombo();
+    }
+    brush_places_["region of"] = last_widget();
+    explain(chosen != regions.end() && !is_painted_only(*chosen)
+                ? "A rule tells this region: the first stroke makes a painted map of it."
+                : "The region that is painted. alt-click on the head takes the one that is there.");
+    ImGui::SliderFloat("weight", &brush_.weight, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    brush_places_["weight"] = last_widget();
+    explain("1 makes roots a part of it, 0 takes them out.");
+    const std::vector<std::string> views = param_labels(*find_param("render.colors"));
+    const int of_regions = int(std::ranges::find(views, "region") - views.begin());
+    bool shown = style_.params.render_colors == of_regions;
+    if (ImGui::Checkbox("show regions on the hair", &shown))
+    {
+        style_.params.render_colors = shown ? of_regions : 0;
+        apply();
+    }
+    brush_places_["show regions"] = last_widget();
+}
+
 void Editor::draw_brushes()
 {
-    ImGui::SetNextWindowPos(ImVec2(8.0f, float(view_height_) - 8.0f), ImGuiCond_FirstUseEver, ImVec2(0.0f, 1.0f));
+    ImGui::SetNextWindowPos(ImVec2(8.0f, float(view_height_) - kMessageRoom), ImGuiCond_FirstUseEver,
+                            ImVec2(0.0f, 1.0f));
     ImGui::SetNextWindowBgAlpha(0.85f);
     if (ImGui::Begin("shape", &brushing_, ImGuiWindowFlags_AlwaysAutoResize))
     {
-        const auto remember = [&](const std::string& name)
-        {
-            const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-            brush_places_[name] = {low.x, low.y, high.x, high.y};
-        };
+        keep_in_view(float(view_width_), float(view_height_) - kMessageRoom); // each brush has widgets of its own
         for (int i = 0; i < kBrushKinds; ++i)
         {
             const BrushKind kind = BrushKind(i);
-            if (i % 4)
+            if (i % 3)
                 ImGui::SameLine();
             const bool chosen = !cutting_ && brush_.kind == kind;
             if (chosen)
                 ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-            if (ImGui::Button(brush_name(kind), ImVec2(64.0f, 0.0f)))
+            if (ImGui::Button(brush_name(kind), ImVec2(86.0f, 0.0f)))
             {
                 brush_.kind = kind;
                 cutting_ = false;
             }
             if (chosen)
                 ImGui::PopStyleColor();
-            remember(brush_name(kind));
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("%s", brush_help(kind));
+            brush_places_[brush_name(kind)] = last_widget();
+            explain(brush_help(kind));
         }
         ImGui::PushItemWidth(170.0f);
         ImGui::SliderFloat("radius", &brush_.radius, 0.004f, 0.15f, "%.3f m", ImGuiSliderFlags_Logarithmic);
+        explain("Of the ring on the scalp; [ and ] change it.");
         ImGui::SliderFloat("strength", &brush_.strength, 0.02f, 1.0f, "%.2f");
+        explain("Share of the way to its aim that one touch goes.");
         ImGui::SliderFloat("fall-off", &brush_.falloff, 0.0f, 1.0f, "%.2f");
+        explain("0 works as strongly up to the ring, 1 fades from the middle on.");
         draw_brush_aim();
         ImGui::PopItemWidth();
         ImGui::Checkbox("mirror left and right", &brush_.mirror);
+        explain("What is done on one half of the head is done on the other too.");
         ImGui::TextDisabled("alt-click picks a value; [ and ] change the radius");
         ImGui::Separator();
         if (ImGui::Button(cutting_ ? "cutting..." : "cut straight"))
             cutting_ = !cutting_;
-        remember("cut");
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Draw a line across the view: what hangs below it is cut.");
+        brush_places_["cut"] = last_widget();
+        explain("Draw a line across the view: what hangs below it is cut.");
         ImGui::SameLine();
         if (ImGui::Button("freeze"))
             freeze();
-        remember("freeze");
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("What is on screen becomes the shape that the hair rests in.");
+        brush_places_["freeze"] = last_widget();
+        explain("What is on screen becomes the shape that the hair rests in.");
         ImGui::SameLine();
         if (ImGui::Button("settle"))
             settle_hair();
-        remember("settle");
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Takes the rest shape away and lets the hair fall and come to rest.");
+        brush_places_["settle"] = last_widget();
+        explain("Takes the rest shape away and lets the hair fall and come to rest.");
         draw_variants();
     }
     ImGui::End();
@@ -272,6 +339,7 @@ void Editor::draw_variants()
                 apply();
                 note_edit(history_, style_, saved_, wanted->empty() ? "no variant" : "variant " + *wanted);
             });
+    explain("A snapshot to go back to. While it is on, changes are its own.");
     ImGui::SetNextItemWidth(110.0f);
     ImGui::InputTextWithHint("##variant", "name", variant_name_, sizeof variant_name_);
     ImGui::SameLine();
@@ -283,8 +351,7 @@ void Editor::draw_variants()
                 apply();
                 note_edit(history_, style_, saved_, std::string("snapshot ") + variant_name_);
             });
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Keeps all sliders as they are under this name, in the style.");
+    explain("Keeps all sliders as they are under this name, in the style.");
 }
 
 // Takes the left button where a brush or the scissors are out. Returns whether it did.
@@ -308,6 +375,9 @@ bool Editor::press_brush(double x, double y)
         pick_value(brush_, style_, simulation_->assets().scalp, *at);
         return true;
     }
+    if (brush_.kind == BrushKind::REGION &&
+        std::ranges::find(style_.host.regions, brush_.region, &Region::name) == style_.host.regions.end())
+        brush_.region = unused_region(style_.host.regions);
     held_ = {};
     held_.what = Grab::BRUSH;
     stroke_.last.reset();

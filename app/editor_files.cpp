@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace coif
 {
@@ -14,8 +15,6 @@ namespace coif
 namespace fs = std::filesystem;
 
 static constexpr double kLookEvery = 0.2; // s between looks at files
-
-std::filesystem::file_time_type written_at(const std::filesystem::path& file);
 
 void Editor::say(const std::string& message, bool error)
 {
@@ -56,11 +55,7 @@ std::vector<fs::path> Editor::watched_files()
         }
     for (const auto& [key, file] : named_)
         files.push_back(file);
-    if (!style_.host.groom_rest.file.empty())
-        files.push_back(style_.file.parent_path() / style_.host.groom_rest.file);
-    for (const ScalpMap& map : style_.host.maps)
-        if (!map.file.empty())
-            files.push_back(style_.file.parent_path() / map.file);
+    std::ranges::copy(files_beside(style_), std::back_inserter(files));
     files.push_back(motion_file(motion_));
     std::error_code error;
     for (const char* folder : {"kernels", "shaders"})
@@ -82,15 +77,12 @@ void Editor::look_at_files()
     bool style = false, meshes = false, motion = false, kernels = false, shaders = false, compiled_in = false;
     std::string vanished;
     std::error_code error;
+    const std::vector<fs::path> beside = files_beside(style_);
     for (const fs::path& file : watch_.changed())
     {
         const bool named = std::ranges::any_of(named_, [&](const auto& entry) { return entry.second == file; });
         const bool there = fs::exists(file, error);
-        const auto beside = [&](const std::string& name)
-        { return !name.empty() && file == style_.file.parent_path() / name; };
-        style |= file == style_.file;
-        style |= there && (beside(style_.host.groom_rest.file) ||
-                           std::ranges::any_of(style_.host.maps, beside, &ScalpMap::file));
+        style |= file == style_.file || (there && std::ranges::find(beside, file) != beside.end());
         meshes |= named && there;
         motion |= file == motion_file(motion_) && there;
         if (!there && file != style_.file)
@@ -169,8 +161,8 @@ void Editor::reload_style()
                 note_save(history_, saved_);
                 known_time_ = written_at(style_.file);
                 apply();
-                if (came_back)
-                    say(style_.file.string() + " is back");
+                say(style_.file.string() +
+                    (came_back ? " is back" : " was written by another program; the hair is the same"));
             }
             else if (!same_style(saved_, style_))
                 theirs_ = fresh;
@@ -183,6 +175,7 @@ void Editor::reload_style()
 void Editor::take_theirs(const Hairstyle& theirs)
 {
     const Hairstyle fresh = theirs; // it may be theirs_
+    held_.what = Grab::NONE;
     simulation_->set_style(fresh, true);
     const auto same_camera = [&](const ParamInfo& info)
     { return info.group != std::string_view("camera") || same_value(fresh, saved_, info); };
@@ -244,11 +237,6 @@ void Editor::draw_files()
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
     file_places_.clear();
-    const auto place = [&](const char* button)
-    {
-        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-        file_places_[button] = {low.x, low.y, high.x, high.y};
-    };
     if (!recoveries_.empty())
     {
         at_top(0.3f * float(view_height_));
@@ -266,14 +254,13 @@ void Editor::draw_files()
                 ImGui::TableNextColumn();
                 ImGui::AlignTextToFramePadding();
                 ImGui::TextUnformatted(recovery.file.empty() ? "untitled" : recovery.file.stem().c_str());
-                if (ImGui::IsItemHovered())
-                    ImGui::SetTooltip("%s", recovery.file.c_str());
+                explain(recovery.file.string());
                 ImGui::TableNextColumn();
                 ImGui::TextDisabled("kept %s", recovery.when.c_str());
                 ImGui::TableNextColumn();
                 if (ImGui::Button("Recover"))
                     taken = i;
-                place("Recover");
+                file_places_["Recover"] = last_widget();
                 ImGui::TableNextColumn();
                 if (ImGui::Button("Discard"))
                     dropped = i;
@@ -300,11 +287,10 @@ void Editor::draw_files()
         ImGui::Text("Another program has changed %s, and here it has unsaved changes.", style_.file.filename().c_str());
         ImGui::TextDisabled("%s", difference(saved_, *theirs_).c_str());
         const bool take = ImGui::Button("Take the file's");
-        place("Take the file's");
+        file_places_["Take the file's"] = last_widget();
         if (take)
             guarded([&] { take_theirs(*theirs_); });
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("what is on screen can be had again by undo");
+        explain("what is on screen can be had again by undo");
         ImGui::SameLine();
         if (theirs_ && ImGui::Button("Keep mine"))
         {
@@ -315,8 +301,7 @@ void Editor::draw_files()
             theirs_.reset();
             apply();
         }
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("saving then writes your values into their file");
+        explain("saving then writes your values into their file");
         ImGui::End();
     }
 }

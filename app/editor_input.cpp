@@ -54,9 +54,7 @@ void Editor::handle_key(const SDL_Keysym& key)
         compare(true);
         break;
     case SDLK_a:
-        beside_.shown = !beside_.shown;
-        if (!beside_.shown)
-            split(false);
+        show_beside(!beside_.shown);
         break;
     case SDLK_v:
         style_.params.render_colors =
@@ -90,6 +88,9 @@ void Editor::handle_key(const SDL_Keysym& key)
         break;
     case SDLK_F5:
         guarded([&] { renderer_->reload_shaders(); });
+        break;
+    case SDLK_t:
+        show_times_ = !show_times_;
         break;
     case SDLK_TAB:
         show_panel_ = !show_panel_;
@@ -135,8 +136,7 @@ void Editor::handle_mouse(const SDL_Event& event)
     {
         if (held_.what == Grab::CUT)
             cut_along(held_.x, held_.y, event.button.x, event.button.y);
-        apply_strokes();
-        held_.what = Grab::NONE;
+        end_stroke();
     }
     else if (event.type == SDL_MOUSEWHEEL)
         zoom(camera_, event.wheel.y);
@@ -157,13 +157,13 @@ void Editor::handle_mouse(const SDL_Event& event)
             if (collider.to)
                 collider.to = glm::clamp(*collider.to + center - collider.center, -100.0f, 100.0f);
             collider.center = center;
-            apply();
+            stroke_.changed = true;
         }
         else if (held_.what == Grab::TIE)
         {
             style_.host.ties.at(held_.tie) =
                 dragged_tie(held_, *simulation_, camera_, x, y, picture_width(), view_height_);
-            apply();
+            stroke_.changed = true;
         }
         else if (held_.what == Grab::MOVE_HEAD || held_.what == Grab::TURN_HEAD)
             hand_ = dragged_head(held_, camera_, x, y, picture_width(), view_height_);

@@ -39,7 +39,9 @@ static const char kHelp[] = "drag the head         move it\n"
                             "a                     another style beside, morph\n"
                             "s                     shape: brushes, cut, freeze, variants\n"
                             "[ ]                   a smaller, a larger brush\n"
+                            "alt-click             takes the value under the brush\n"
                             "v                     colours: hair, stretch, density, kind, region, map\n"
+                            "t                     times of the passes, device\n"
                             "F5                    read the shaders again\n"
                             "tab                   hide the panel\n"
                             "h, F1                 this list\n"
@@ -86,11 +88,14 @@ void Editor::draw_ui()
 // All that was done, the newest last; what was undone is grey.
 void Editor::draw_history()
 {
-    const ImVec2 right_top(float(view_width_) - 8.0f, 8.0f);
-    ImGui::SetNextWindowPos(right_top, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
-    ImGui::SetNextWindowSize(ImVec2(280.0f, 300.0f), ImGuiCond_FirstUseEver);
+    // Below the browser, above the legend.
+    const ImVec2 low(float(view_width_) - 8.0f, 0.63f * float(view_height_));
+    ImGui::SetNextWindowPos(low, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(280.0f, 0.26f * float(view_height_)), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.8f);
     if (ImGui::Begin("what was done", &show_history_))
+    {
+        keep_in_view(float(view_width_), float(view_height_));
         for (size_t i = 0; i < history_.edits.size(); ++i)
         {
             ImGui::PushID(int(i));
@@ -104,11 +109,31 @@ void Editor::draw_history()
             if (chosen)
                 go_back(i);
         }
+        if (ImGui::IsWindowAppearing() || history_.edits.size() != history_seen_)
+            ImGui::SetScrollHereY(1.0f); // the newest is seen
+        history_seen_ = history_.edits.size();
+    }
     ImGui::End();
 }
 
 void Editor::draw_tools()
 {
+    const auto button = [](const char* label, const char* help)
+    {
+        const bool pressed = ImGui::Button(label);
+        explain(help);
+        return pressed;
+    };
+    // One that shows whether its window is open.
+    const auto toggle = [&](const char* label, bool on, const char* help)
+    {
+        if (on)
+            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        const bool pressed = button(label, help);
+        if (on)
+            ImGui::PopStyleColor();
+        return pressed;
+    };
     ImGui::SetNextItemWidth(115.0f);
     if (ImGui::BeginCombo("##open", style_.name().c_str()))
     {
@@ -117,68 +142,63 @@ void Editor::draw_tools()
                 open(file);
         ImGui::EndCombo();
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("open a preset; or drop a file onto the window");
+    explain("Opens a preset; or drop a file onto the window.");
     ImGui::SameLine();
-    if (ImGui::Button("Browse"))
+    if (toggle("Browse", browser_.shown, "b: presets with their pictures"))
         browse(!browser_.shown);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("b: presets with their pictures");
     ImGui::SameLine();
-    if (ImGui::Button(unsaved_ ? "Save *" : "Save") && !style_.file.empty())
-        save(style_.file);
+    if (button(unsaved_ ? "Save *" : "Save", "ctrl-s; a star where there is something to save"))
+    {
+        if (style_.file.empty())
+            ask_save_as_ = true;
+        else
+            save(style_.file);
+    }
     ImGui::SameLine();
-    if (ImGui::Button("Save as"))
+    if (button("Save as", "ctrl-shift-s: under another name"))
         ask_save_as_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("Open"))
+    if (button("Open", "ctrl-o: a preset, or a file by its path"))
         ask_open_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("?"))
+    if (toggle("?", show_help_, "h, F1: keys and mouse"))
         show_help_ = !show_help_;
 
-    if (ImGui::Button(paused_ ? "Play" : "Pause"))
+    if (button(paused_ ? "Play###pause" : "Pause###pause", "space: time stands still, the hair can still be shaped"))
         paused_ = !paused_;
     ImGui::SameLine();
-    if (ImGui::Button("Step"))
+    if (button("Step", "full stop: one step of time"))
         paused_ = step_once_ = true;
     ImGui::SameLine();
-    if (ImGui::Button("Undo"))
+    if (button("Undo", "ctrl-z; redo: ctrl-shift-z; all that was done: u"))
         undo_last();
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("ctrl-z; redo: ctrl-shift-z; all that was done: u");
     ImGui::SameLine();
-    if (ImGui::Button("Reset"))
+    if (button("Reset", "r: the hair begins anew where it rests"))
         reset_hair();
     ImGui::SameLine();
-    if (ImGui::Button("Keep camera"))
+    if (button("Keep view", "k: the style opens with the camera as it is now"))
         keep_view();
     ImGui::SameLine();
-    if (ImGui::Button("Shape"))
+    if (toggle("Shape", brushing_, "s: brushes, scissors, freeze and variants"))
         brushing_ = !brushing_;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("s: brushes, scissors, freeze and variants");
     ImGui::SameLine();
-    if (ImGui::Button("A/B"))
-        beside_.shown = !beside_.shown;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("a: another style beside this one, or on the way to it");
+    if (toggle("A/B", beside_.shown, "a: another style beside this one, or on the way to it"))
+        show_beside(!beside_.shown);
     int key = 0;
     for (const std::string& motion : motion_names())
     {
+        if (key++)
+            ImGui::SameLine(0.0f, 3.0f);
         const bool on = simulation_->motion_name() == motion;
         if (on)
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (key++)
-            ImGui::SameLine(0.0f, 3.0f);
         if (ImGui::SmallButton(motion.c_str()))
             play(motion);
         if (on)
             ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("key %d", key);
+        explain(fmt::format("{}: moves the head so; esc stops it", key));
     }
-    if (ImGui::Button("Screenshot"))
+    if (button("Screenshot", "p, F12: what the view shows, without windows, into the folder that coif was started in"))
         screenshot();
     ImGui::SameLine();
     ImGui::SetNextItemWidth(110.0f);
@@ -189,15 +209,14 @@ void Editor::draw_tools()
                 screenshot_size_ = size;
         ImGui::EndCombo();
     }
+    explain("Pixels of the picture");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
     ImGui::InputTextWithHint("##picture", style_.name().c_str(), &screenshot_name_);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("name of the picture, a path if you like; a number and .png follow");
+    explain("Name of the picture, a path if you like; a number and .png follow.");
     ImGui::SameLine();
     ImGui::Checkbox("alpha", &transparent_);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("no backdrop");
+    explain("No backdrop: the picture is clear where there is neither head nor hair.");
 }
 
 // What a tolerance has chosen: in a line, and in full when that is opened.
@@ -245,20 +264,33 @@ void Editor::draw_status()
     if (healed_ > 0)
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "strands healed %ld times", healed_);
     if (!bad_strand_.empty())
+    {
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
         ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "%s", bad_strand_.c_str());
+        ImGui::PopTextWrapPos();
+    }
     if (simulation_->solver().asleep())
         ImGui::Text("asleep: at rest, nothing runs");
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
-    double sum = 0.0;
-    for (const auto& [pass, ms] : pass_ms_)
+    if (show_times_)
     {
-        ImGui::TextDisabled("%-20s %6.2f ms", pass.c_str(), ms);
-        sum += ms;
+        double sum = 0.0;
+        const auto row = [](const std::string& pass, double ms)
+        {
+            ImGui::TextDisabled("%s", pass.c_str());
+            ImGui::SameLine(150.0f);
+            ImGui::TextDisabled("%6.2f ms", ms);
+        };
+        for (const auto& [pass, ms] : pass_ms_)
+        {
+            row(pass, ms);
+            sum += ms;
+        }
+        row("all passes", sum);
+        ImGui::TextDisabled("%s", device_.name.c_str());
+        ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
-    ImGui::TextDisabled("%-20s %6.2f ms", "all passes", sum);
-    ImGui::TextDisabled("%s", device_.name.c_str());
-    ImGui::TextDisabled("%s", renderer_->name().c_str());
     const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
     if (!simulation_->quality().said.empty())

@@ -34,7 +34,7 @@ bool note_edit(History& history, const Hairstyle& style, const Hairstyle& saved,
 {
     const Edit& last = history.edits.at(history.now);
     const std::string done = difference(last.style, style);
-    if (done.empty() && style.file == last.style.file && same_style(style, last.style))
+    if (done.empty() && style.file == last.style.file && same_variants(style, last.style))
         return false;
     history.edits.resize(history.now + 1);
     history.edits.push_back({what.empty() ? done : what, style, saved});

@@ -18,6 +18,34 @@ namespace coif
 
 static const ImVec4 kChanged(1.0f, 0.78f, 0.35f, 1.0f);
 
+WidgetPlace last_widget()
+{
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    return {low.x, low.y, high.x, high.y};
+}
+
+void explain(const std::string& text)
+{
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f); // what is greyed is told of in plain
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+
+void keep_in_view(float width, float height)
+{
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float right = std::max(0.0f, width - size.x), bottom = std::max(0.0f, height - size.y);
+    const ImVec2 to(std::clamp(at.x, 0.0f, right), std::clamp(at.y, 0.0f, bottom));
+    if ((to.x != at.x || to.y != at.y) && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) // while it is dragged it may
+        ImGui::SetWindowPos(to);
+}
+
 // Ranges over several powers of ten want a logarithmic slider.
 static ImGuiSliderFlags slider_flags(const ParamInfo& info, float usual)
 {
@@ -183,8 +211,7 @@ static bool draw_lock(bool locked)
                    2.0f * std::numbers::pi_v<float>, 8);
     draw.PathLineTo(ImVec2(middle.x + aside + 0.3f * side, middle.y));
     draw.PathStroke(color, 0, 1.5f);
-    if (hovered)
-        ImGui::SetTooltip("%s", locked ? "locked: chance leaves it alone" : "lock it against chance");
+    explain(locked ? "Locked: chance leaves it alone." : "Locks it against chance.");
     return pressed;
 }
 
@@ -199,24 +226,21 @@ static bool contains(const std::string& text, const char* part)
 static bool draw_chance(Hairstyle& style, PanelState& state)
 {
     const bool thrown = ImGui::Button("Randomise");
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    state.places["randomise"] = {low.x, low.y, high.x, high.y};
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("draws what shapes and colours the hair anew, about where it is now;\n"
-                          "the padlock behind a value, or behind a group by its right button, keeps it as it is");
+    state.places["randomise"] = last_widget();
+    explain(
+        "Draws what shapes and colours the hair anew, about where it is now. The padlock behind a value, or a group's "
+        "right button, keeps it as it is.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(100.0f);
     if (ImGui::InputInt("seed", &state.seed))
         state.seed = std::max(state.seed, 0);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("of the next throw: it goes up by one with each");
+    explain("Of the next throw: it goes up by one with each.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("by").x - 2.0f * ImGui::GetStyle().ItemInnerSpacing.x);
     float percent = 100.0f * state.amount;
     if (ImGui::SliderFloat("by", &percent, 1.0f, 100.0f, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
         state.amount = 0.01f * percent;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("how far a value may go: this much of its slider");
+    explain("How far a value may go: this much of its slider.");
     if (!thrown)
         return false;
     style = randomised(style, state.seed, double(state.amount), state.locked);
@@ -260,10 +284,11 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             const bool was_open = *state.filter || !state.folded.contains(group); // what is looked for is shown
             ImGui::SetNextItemOpen(was_open);
             open = ImGui::CollapsingHeader(group);
-            const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-            state.places[std::string("group ") + group] = {low.x, low.y, high.x, high.y};
+            state.places[std::string("group ") + group] = last_widget();
             if (open != was_open && !*state.filter)
                 open ? void(state.folded.erase(group)) : void(state.folded.insert(group));
+            if (info.kind == Kind::LIST)
+                explain(info.help);
             if (ImGui::BeginPopupContextItem())
             {
                 const bool lock = ImGui::MenuItem("lock all against chance"), unlock = ImGui::MenuItem("unlock all");
@@ -291,8 +316,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         changed |= info.kind == Kind::TEXT    ? draw_text(style, info, id.c_str())
                    : info.kind == Kind::SHAPE ? draw_shape(style, info, id.c_str())
                                               : draw_number(style, info, id.c_str());
-        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-        state.places[path] = {low.x, low.y, high.x, high.y};
+        const WidgetPlace row = state.places[path] = last_widget();
         ImGui::EndDisabled();
         const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
         ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
@@ -306,8 +330,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
                 changed = true;
             }
             ImGui::PopStyleColor();
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("back to the default, %s", value_text(defaults, info).c_str());
+            explain(fmt::format("Back to the default, {}", value_text(defaults, info)));
             ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
         }
         ImGui::BeginDisabled(unread);
@@ -316,15 +339,14 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         const bool name_hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
         if (is_left_to_chance(info, style.params))
         {
-            const float right = ImGui::GetWindowContentRegionMax().x, top = low.y;
+            const float inner = ImGui::GetWindowContentRegionMax().x, right = ImGui::GetWindowPos().x + inner;
             const bool locked = state.locked.contains(path);
-            const ImVec2 row_low(low.x, top), row_high(ImGui::GetWindowPos().x + right, high.y);
-            if (locked || ImGui::IsMouseHoveringRect(row_low, row_high))
+            if (locked || ImGui::IsMouseHoveringRect(ImVec2(row.left, row.top), ImVec2(right, row.bottom)))
             {
-                ImGui::SameLine(right - lock_width);
+                ImGui::SameLine(inner - lock_width);
                 if (draw_lock(locked))
                     locked ? void(state.locked.erase(path)) : void(state.locked.insert(path));
-                state.places[path + " lock"] = {row_high.x - lock_width, top, row_high.x, high.y};
+                state.places[path + " lock"] = {right - lock_width, row.top, right, row.bottom};
             }
         }
         if (hovered || name_hovered)

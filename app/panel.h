@@ -14,6 +14,11 @@ struct WidgetPlace
     float left, top, right, bottom;
 };
 
+// Of the widget that was just drawn, greyed or not: where it lies, and what is told of it to a mouse that rests there.
+WidgetPlace last_widget();
+void explain(const std::string& text);
+void keep_in_view(float width, float height); // moves the window that is being drawn so that all of it is seen
+
 struct PanelState
 {
     std::map<std::string, WidgetPlace> places; // of the last frame, by path

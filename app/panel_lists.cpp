@@ -1,5 +1,7 @@
 #include "app/panel_lists.h"
 
+#include "app/panel.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -20,6 +22,12 @@ struct FieldEditor
 
     void text(const char* name, std::string& value, bool needed = false)
     {
+        if (name == std::string_view("file")) // which a save names
+        {
+            if (!value.empty())
+                ImGui::TextDisabled("in %s", value.c_str());
+            return;
+        }
         std::string edited = value;
         if (ImGui::InputText(name, &edited, ImGuiInputTextFlags_EnterReturnsTrue) && !(needed && edited.empty()))
         {
@@ -199,15 +207,20 @@ static bool add_entry(std::vector<Collider>& list, size_t most)
     return true;
 }
 
+std::string unused_region(const std::vector<Region>& regions)
+{
+    for (int i = 1;; ++i)
+        if (const std::string name = fmt::format("region {}", i);
+            std::ranges::find(regions, name, &Region::name) == regions.end())
+            return name;
+}
+
 static bool add_entry(std::vector<Region>& list, size_t most)
 {
     if (list.size() >= most || !ImGui::Button("add a region"))
         return false;
     Region region;
-    for (int i = 1; region.name.empty(); ++i)
-        if (const std::string name = fmt::format("region {}", i);
-            std::ranges::find(list, name, &Region::name) == list.end())
-            region.name = name;
+    region.name = unused_region(list);
     region.where = {"top"};
     list.push_back(region);
     return true;
@@ -221,7 +234,12 @@ static bool add_entry(std::vector<Parting>& list, size_t most)
     return true;
 }
 
-static bool add_entry(std::vector<ScalpMap>&, size_t) { return false; }
+static bool add_entry(std::vector<ScalpMap>& list, size_t)
+{
+    if (list.empty())
+        ImGui::TextDisabled("none yet: brushes (s) paint them");
+    return false;
+}
 
 static bool add_entry(std::vector<Tie>& list, size_t most)
 {
@@ -245,12 +263,24 @@ static std::string title_of(const Tie& tie, size_t i)
 }
 static std::string title_of(const ScalpMap& map, size_t) { return "map of " + map.of; }
 
-// Is the entry as its neighbours allow it?
-template <typename Entry> static bool stands(const std::vector<Entry>& list, size_t i)
+// Takes an entry back to what it was where its neighbours do not allow what it has become, and says so below it. Ties
+// go with the names of the regions that they gather.
+template <typename Entry>
+static void keep_with_neighbors(HostParams& host, std::vector<Entry>& list, size_t i, const Entry& before, bool changed)
 {
     if constexpr (std::is_same_v<Entry, Region>)
-        return std::ranges::count(list, list[i].name, &Region::name) == 1;
-    return true;
+    {
+        Region& region = list[i];
+        bool* twice = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("twice"), false);
+        if (changed)
+            *twice = std::ranges::count(list, region.name, &Region::name) > 1;
+        if (changed && *twice)
+            region = before;
+        for (Tie& tie : host.ties)
+            std::ranges::replace(tie.regions, before.name, region.name);
+        if (*twice)
+            ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.4f, 1.0f), "Another region is called so; each needs its own name.");
+    }
 }
 
 bool draw_list(HostParams& host, const ParamInfo& info)
@@ -264,6 +294,7 @@ bool draw_list(HostParams& host, const ParamInfo& info)
                          {
                              ImGui::PushID(int(i));
                              ImGui::TextUnformatted(title_of(list[i], i).c_str());
+                             explain(info.help);
                              ImGui::SameLine();
                              const bool remove = ImGui::SmallButton("remove");
                              const auto before = list[i];
@@ -271,8 +302,7 @@ bool draw_list(HostParams& host, const ParamInfo& info)
                              ImGui::PushItemWidth(ImGui::GetWindowWidth() * 0.5f);
                              fields(editor, list[i]);
                              ImGui::PopItemWidth();
-                             if (!stands(list, i))
-                                 list[i] = before;
+                             keep_with_neighbors(host, list, i, before, editor.changed);
                              changed |= editor.changed;
                              ImGui::PopID();
                              if (remove)

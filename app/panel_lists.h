@@ -8,4 +8,7 @@ namespace coif
 // changed; what is left is as a file may say it.
 bool draw_list(HostParams& host, const ParamInfo& info);
 
+// "region 1", or with the first number that none has yet.
+std::string unused_region(const std::vector<Region>& regions);
+
 } // namespace coif

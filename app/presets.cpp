@@ -1,5 +1,6 @@
 #include "app/presets.h"
 
+#include "app/watch.h"
 #include "sim/error.h"
 #include "sim/hairstyle.h"
 
@@ -102,8 +103,7 @@ fs::path duplicate_hairstyle(const fs::path& file, const std::string& name)
     try
     {
         Hairstyle style = load_hairstyle(file);
-        if (style.host.groom_rest.shapes ||
-            std::ranges::any_of(style.host.maps, [](const ScalpMap& map) { return !map.file.empty(); }))
+        if (!files_beside(style).empty())
             save_hairstyle(style, place); // with copies of what lies beside it
     }
     catch (const Error&)

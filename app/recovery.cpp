@@ -204,6 +204,8 @@ void Autosave::write(const Hairstyle& style)
     Hairstyle whole = style;
     for (ScalpMap& map : whole.host.maps)
         map.file.clear(); // values and all
+    for (Region& region : whole.host.regions)
+        region.file.clear();
     std::string text = kFirstLine + ("# " + file.string()) + "\n" + hairstyle_text(whole, style.file);
     if (style.host.groom_rest.shapes)
         text += kShapesFollow + shapes_text(*style.host.groom_rest.shapes);

@@ -1,5 +1,6 @@
 #include "app/thumbnails.h"
 
+#include "app/watch.h"
 #include "sim/error.h"
 #include "sim/hairstyle.h"
 #include "sim/source.h"
@@ -33,13 +34,6 @@ fs::path coif_program()
     return fs::exists(beside, error) ? beside : self;
 }
 
-static fs::file_time_type written(const fs::path& file)
-{
-    std::error_code error;
-    const auto time = fs::last_write_time(file, error);
-    return error ? fs::file_time_type::min() : time;
-}
-
 Thumbnails::Thumbnails(fs::path folder, fs::path program, std::string device)
     : folder_(std::move(folder)), program_(std::move(program)), device_(std::move(device))
 {
@@ -55,7 +49,7 @@ Thumbnails::~Thumbnails()
 
 Hash Thumbnails::hash_of(const fs::path& file)
 {
-    const auto time = written(file);
+    const auto time = written_at(file);
     const auto known = hashes_.find(file);
     if (known != hashes_.end() && known->second.first == time)
         return known->second.second;
@@ -68,7 +62,7 @@ Hash Thumbnails::hash_of(const fs::path& file)
 
 void Thumbnails::find_key(const fs::path& style, Entry& entry)
 {
-    entry.files = {{style, written(style)}};
+    entry.files = {{style, written_at(style)}};
     Hash key;
     const auto add = [&](const fs::path& file)
     {
@@ -79,14 +73,8 @@ void Thumbnails::find_key(const fs::path& style, Entry& entry)
     const int version[2] = {kVersion, kSize};
     key.add(version, sizeof version);
     add(style);
-    std::vector<std::string> beside; // shapes and large maps
-    for (const ScalpMap& map : hair.host.maps)
-        if (!map.file.empty())
-            beside.push_back(map.file);
     for (const ParamInfo& info : param_table())
     {
-        if (info.kind == Kind::SHAPE && !hair.host.groom_rest.file.empty())
-            beside.push_back(hair.host.groom_rest.file);
         if (info.kind != Kind::TEXT)
             continue;
         const auto& named =
@@ -94,13 +82,12 @@ void Thumbnails::find_key(const fs::path& style, Entry& entry)
         if (named.empty())
             continue;
         const fs::path file = resolve_path(hair, info.path(), named, data_folder() / "assets");
-        entry.files[file] = written(file);
+        entry.files[file] = written_at(file);
         add(file);
     }
-    for (const std::string& name : beside)
+    for (const fs::path& file : files_beside(hair))
     {
-        const fs::path file = style.parent_path() / name;
-        entry.files[file] = written(file);
+        entry.files[file] = written_at(file);
         add(file);
     }
     for (const char* folder : {"kernels", "shaders"})
@@ -244,7 +231,7 @@ bool Thumbnails::work()
         Entry& entry = entries_[style];
         const auto moved = [&] {
             return std::ranges::any_of(entry.files,
-                                       [](const auto& file) { return written(file.first) != file.second; });
+                                       [](const auto& file) { return written_at(file.first) != file.second; });
         };
         try
         {

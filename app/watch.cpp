@@ -8,6 +8,29 @@ namespace coif
 
 namespace fs = std::filesystem;
 
+fs::file_time_type written_at(const fs::path& file)
+{
+    std::error_code error;
+    const auto time = fs::last_write_time(file, error);
+    return error ? fs::file_time_type::min() : time;
+}
+
+std::vector<fs::path> files_beside(const Hairstyle& style)
+{
+    std::vector<fs::path> files;
+    const auto add = [&](const std::string& name)
+    {
+        if (!name.empty())
+            files.push_back(style.file.parent_path() / name);
+    };
+    add(style.host.groom_rest.file);
+    for (const Region& region : style.host.regions)
+        add(region.file);
+    for (const ScalpMap& map : style.host.maps)
+        add(map.file);
+    return files;
+}
+
 Watch::Stamp Watch::stamp_of(const fs::path& file)
 {
     struct stat status;

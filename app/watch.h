@@ -1,4 +1,6 @@
 #pragma once
+#include "sim/hairstyle.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -6,6 +8,12 @@
 
 namespace coif
 {
+
+// When a file was last written, as far as can be told.
+std::filesystem::file_time_type written_at(const std::filesystem::path& file);
+
+// The files that a style keeps beside its own and writes with it: its rest shape, large maps and painted regions.
+std::vector<std::filesystem::path> files_beside(const Hairstyle& style);
 
 // Which files have changed on disk. Looks at them now and then instead of asking the system to tell: that is the same
 // on every file system, sees files that vanish and come back, and a hundred looks take less than a millisecond.

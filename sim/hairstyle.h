@@ -48,6 +48,8 @@ void switch_variant(Hairstyle& style, const std::string& name);
 void take_variant(Hairstyle& style, const std::string& name);
 // The variants with the one that is on as it is now.
 std::map<std::string, std::vector<Setting>> current_variants(const Hairstyle& style);
+// The same variants with the same in them, and the same one on?
+bool same_variants(const Hairstyle& a, const Hairstyle& b);
 // Numbers and lists alike, and variants too?
 bool same_style(const Hairstyle& a, const Hairstyle& b);
 

@@ -316,6 +316,9 @@ template <typename Entry> static TomlEntry written(Entry entry)
     if constexpr (std::is_same_v<Entry, ScalpMap>)
         if (!entry.file.empty())
             entry.values.clear(); // which that holds
+    if constexpr (std::is_same_v<Entry, Region>)
+        if (!entry.file.empty())
+            entry.weights.clear();
     EntryWriter writer;
     fields(writer, entry);
     return writer.entry;
@@ -354,6 +357,8 @@ static void check(const Region& region, const EntryReader& at)
         if (std::find(region_areas().begin(), region_areas().end(), area) == region_areas().end())
             throw at.wrong(*at.table.get("where"), "where",
                            fmt::format("is '{}', but must be of {}", area, fmt::join(region_areas(), ", ")));
+    if (!region.weights.empty() && !region.file.empty())
+        throw at.wrong(*at.table.get("weights"), "weights", "must be left out where a file holds them");
 }
 
 static void check(const Parting& parting, const EntryReader& at)
@@ -449,12 +454,21 @@ void load_beside(Hairstyle& style)
     if (StoredShape& rest = style.host.groom_rest; !rest.file.empty())
         placed("groom.rest",
                [&] { rest.shapes = std::make_shared<const StrandShapes>(read_shapes(folder / rest.file)); });
+    for (size_t i = 0; i < style.host.regions.size(); ++i)
+        if (Region& region = style.host.regions[i]; !region.file.empty())
+            placed(fmt::format("region[{}]", i),
+                   [&] {
+                       region.weights = read_map_values(folder / region.file, {0.0f, 1.0f, ""});
+                   });
     for (size_t i = 0; i < style.host.maps.size(); ++i)
         if (ScalpMap& map = style.host.maps[i]; !map.file.empty())
-            placed(fmt::format("map[{}]", i), [&] { map.values = read_map_values(folder / map.file); });
+            placed(fmt::format("map[{}]", i),
+                   [&] {
+                       map.values = read_map_values(folder / map.file, {-1000.0f, 1000.0f, ""});
+                   });
 }
 
-std::vector<float> read_map_values(const fs::path& file)
+std::vector<float> read_map_values(const fs::path& file, Limits bounds)
 {
     const std::string text = read_file(file, 16 << 20);
     std::vector<float> values;
@@ -467,9 +481,9 @@ std::vector<float> read_map_values(const fs::path& file)
             return values;
         float value = 0.0f;
         const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value) || std::abs(value) > 1000.0f ||
+        if (error != std::errc() || !(value >= bounds.min && value <= bounds.max) ||
             (next < end && !strchr(" \t\r\n", *next)))
-            throw fail("{}:{}: must hold numbers from -1000 to 1000 only", file.string(), line);
+            throw fail("{}:{}: must hold numbers from {} to {} only", file.string(), line, bounds.min, bounds.max);
         values.push_back(value);
         at = next;
     }

@@ -32,9 +32,10 @@ std::string setting_text(const Setting& setting);
 // Settings as keys: one inline table for each group of parameters.
 TomlEntry settings_entry(const std::vector<Setting>& settings);
 
-// A file of map values: numbers, with white space between them. Throws Error for anything else.
-std::vector<float> read_map_values(const std::filesystem::path& file);
+// A file of map values or weights: numbers within bounds, with white space between them. Throws Error for anything
+// else.
+std::vector<float> read_map_values(const std::filesystem::path& file, Limits bounds);
 std::string map_values_text(const std::vector<float>& values);
-constexpr size_t kMostInline = 4096; // values of a map that are kept in the hairstyle file itself
+constexpr size_t kMostInline = 4096; // values of a map or region that are kept in the hairstyle file itself
 
 } // namespace coif

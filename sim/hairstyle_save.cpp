@@ -2,8 +2,10 @@
 #include "sim/hairstyle_lists.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <unistd.h>
 
 namespace coif
@@ -52,12 +54,15 @@ void write_file(const fs::path& file, const std::string& bytes)
     const fs::path beside = target.string() + fmt::format(".{}.new", getpid());
     {
         std::ofstream out(beside, std::ios::binary);
+        if (!out)
+            throw fail("{}: cannot be written; is its folder there, and writable?", file.string());
         out << bytes;
         out.flush();
         if (!out)
         {
+            const std::string why = std::generic_category().message(errno);
             fs::remove(beside, error);
-            throw fail("{}: cannot be written; is its folder there, and writable?", file.string());
+            throw fail("{}: cannot be written: {}; make room, or save elsewhere", file.string(), why);
         }
     }
     if (const auto status = fs::status(target, error); fs::exists(status))
@@ -203,6 +208,9 @@ static std::vector<std::pair<fs::path, std::string>> side_files(Hairstyle& style
     };
     if (StoredShape& rest = style.host.groom_rest; rest.shapes)
         keep(rest.file, "rest", shapes_text(*rest.shapes));
+    for (Region& region : style.host.regions)
+        if (region.weights.size() > kMostInline || !region.file.empty())
+            keep(region.file, "region", map_values_text(region.weights));
     for (ScalpMap& map : style.host.maps)
         if (map.values.size() > kMostInline || !map.file.empty())
             keep(map.file, map.of + ".map", map_values_text(map.values));

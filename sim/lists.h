@@ -42,6 +42,7 @@ struct Region
     std::vector<glm::vec4> planes;  // n, d: the half-space n . p >= d of the head's frame, m
     std::string group;              // of the scalp's OBJ
     std::vector<float> weights;     // painted, 0 to 1: one for each vertex of the scalp
+    std::string file;               // beside the style, where they lie if they are many
     bool invert = false;            // all but that
     float edge = 0.01f;             // m over which it fades; 0: hard, and no drawn strand mixes guides across it
     std::vector<Setting> settings;
@@ -107,6 +108,7 @@ void fields(Visitor& visit, Entry& entry)
     visit.planes("planes", entry.planes, kPlaces);
     visit.text("group", entry.group);
     visit.numbers("weights", entry.weights, Limits{0.0f, 1.0f, ""});
+    visit.text("file", entry.file);
     visit.flag("invert", entry.invert);
     visit.number("edge", entry.edge, Limits{0.0f, 1.0f, "m"});
     visit.settings(entry.settings);

@@ -34,6 +34,16 @@ template <typename Action> static auto placed(const Hairstyle& style, const std:
     }
 }
 
+// What is edited must do as what is read: a style that no longer opens would be lost work.
+static void check_lists(const Hairstyle& style, const Scalp& scalp)
+{
+    const auto size = [](const auto& list) { return list.size(); };
+    for (const ParamInfo& info : param_table())
+        if (info.kind == Kind::LIST)
+            for (size_t i = 0; i < with_list(style.host, info, size); ++i)
+                placed(style, fmt::format("{}[{}]", info.group, i), [&] { check_entry(style.host, info, i, scalp); });
+}
+
 Assets load_assets(const Hairstyle& style)
 {
     Assets assets;
@@ -51,13 +61,7 @@ Assets load_assets(const Hairstyle& style)
     if (const auto& rest = style.host.groom_rest.shapes;
         rest && size_t(rest->strands()) != assets.scalp.positions.size())
         placed(style, "groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
-    for (const ParamInfo& info : param_table())
-        if (info.kind == Kind::LIST)
-            for (size_t i = 0; i < with_list(
-                                       style.host, info, [](const auto& list) { return list.size(); });
-                 ++i)
-                placed(style, fmt::format("{}[{}]", info.group, i),
-                       [&] { check_entry(style.host, info, i, assets.scalp); });
+    check_lists(style, assets.scalp);
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh,
                            [&](const std::filesystem::path& file)
@@ -140,6 +144,7 @@ TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedG
 
 Groom grown(const Hairstyle& style, Assets& assets)
 {
+    check_lists(style, assets.scalp);
     Groom groom = grow(style.params, assets.scalp, style.host);
     const std::vector<Tie>& ties = style.host.ties;
     if (ties.empty())

@@ -103,9 +103,14 @@ void read_variants(Hairstyle& style, const toml::node& node)
     }
 }
 
+bool same_variants(const Hairstyle& a, const Hairstyle& b)
+{
+    return a.variant == b.variant && current_variants(a) == current_variants(b);
+}
+
 bool same_style(const Hairstyle& a, const Hairstyle& b)
 {
-    return a.variant == b.variant && current_variants(a) == current_variants(b) &&
+    return same_variants(a, b) &&
            std::ranges::all_of(param_table(), [&](const ParamInfo& info) { return same_value(a, b, info); });
 }
 

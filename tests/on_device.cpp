@@ -173,6 +173,20 @@ Capsule capsule(glm::dvec3 center, double radius, glm::dvec3 axis)
             F4(float(axis.x), float(axis.y), float(axis.z), squared > 0.0 ? float(1.0 / squared) : 0.0f)};
 }
 
+const std::set<std::string>& read_by_shaders_only()
+{
+    static const std::set<std::string> paths = {"wave.normal_frequency",
+                                                "wave.normal_randomness",
+                                                "wave.binormal_frequency",
+                                                "wave.binormal_randomness",
+                                                "curl.pitch",
+                                                "curl.hand",
+                                                "curl.phase",
+                                                "curl.variation",
+                                                "frizz.frequency"};
+    return paths;
+}
+
 std::vector<uint8_t> bytes_of(const Device& device, const cl::Buffer& buffer)
 {
     return read<uint8_t>(device, buffer, buffer.getInfo<CL_MEM_SIZE>());

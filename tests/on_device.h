@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,9 @@ std::shared_ptr<const DistanceGrid> lumpy_body();
 
 // A sphere, or with an axis a capsule, as the kernels read it.
 Capsule capsule(glm::dvec3 center, double radius, glm::dvec3 axis = glm::dvec3(0.0));
+
+// Parameters that change the picture of waves, curls and frizz but no node of a strand.
+const std::set<std::string>& read_by_shaders_only();
 
 // Every byte of a buffer.
 std::vector<uint8_t> bytes_of(const Device& device, const cl::Buffer& buffer);

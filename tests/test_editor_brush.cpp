@@ -148,3 +148,78 @@ TEST_F(EditorBrush, frozen_hair_is_saved_beside_the_style_and_settles_again)
     xdotool("key ctrl+z");
     EXPECT_TRUE(until([&] { return editor->style().host.groom_rest.shapes != nullptr; }));
 }
+
+TEST_F(EditorBrush, a_save_of_ones_own_is_not_read_again_whatever_lies_beside)
+{
+    // Files that a style names are watched too: these are ours.
+    choose("freeze");
+    for (int i = 0; i < 2; ++i)
+    {
+        choose("comb");
+        stroke(120.0, 0.0);
+        xdotool("mousemove " + at(30.0, 600.0));
+        xdotool("key ctrl+s");
+        ASSERT_TRUE(until([&] { return !editor->unsaved(); })) << editor->message();
+        EXPECT_FALSE(within(1.5, [&] { return editor->message().find("saved ") != 0; })) << editor->message();
+    }
+    // Another's is seen.
+    std::ofstream("style.toml", std::ios::app) << "# theirs\n";
+    EXPECT_TRUE(within(3.0, [&] { return editor->message().find("was written by another") != std::string::npos; }));
+    EXPECT_FALSE(editor->unsaved());
+}
+
+TEST_F(EditorBrush, a_region_is_painted_and_erased_and_seen)
+{
+    choose("region");
+    frames(3);
+    click(editor->brush_places().at("show regions"));
+    EXPECT_TRUE(until([&] { return !editor->legend().readings.empty(); }));
+    const Hairstyle unpainted = editor->style();
+    const size_t edits = editor->history().edits.size();
+    editor->brush().strength = 1.0f;
+    stroke(120.0, 0.0);
+    frames(3);
+    shoot("brush_region");
+    const auto& regions = editor->style().host.regions;
+    ASSERT_EQ(regions.size(), 1u) << editor->message();
+    EXPECT_EQ(regions[0].name, "region 1");
+    EXPECT_EQ(editor->history().edits.size(), edits + 1) << "one stroke, one edit";
+    EXPECT_EQ(editor->history().edits.back().what, "painted region 1");
+    EXPECT_EQ(editor->legend().title, "regions");
+    EXPECT_EQ(editor->legend().readings.back(), "region 1");
+    const auto sum = [&]
+    {
+        double all = 0.0;
+        for (const float w : regions.at(0).weights)
+            all += double(w);
+        return all;
+    };
+    const double painted = sum();
+    EXPECT_GT(painted, 3.0);
+    stroke(0.0, 100.0);
+    EXPECT_EQ(regions.size(), 1u) << "the next goes on with it";
+    EXPECT_GT(sum(), painted);
+    const double more = sum();
+    editor->brush().weight = 0.0f;
+    stroke(0.0, 100.0);
+    EXPECT_LT(sum(), more);
+    // All of it cannot go: a region of nothing is none.
+    editor->brush().radius = 0.15f;
+    editor->brush().falloff = 0.0f;
+    for (int i = 0; i < 3; ++i)
+        stroke(100.0, 0.0);
+    EXPECT_GT(sum(), 0.0);
+    EXPECT_NE(editor->message().find("selects none"), std::string::npos) << editor->message();
+    xdotool("mousemove " + at(30.0, 600.0));
+    for (int i = 0; i < 8 && !regions.empty(); ++i)
+    {
+        xdotool("key ctrl+z");
+        frames(6);
+    }
+    EXPECT_TRUE(same_style(editor->style(), unpainted));
+    xdotool("key ctrl+shift+z");
+    EXPECT_TRUE(until([&] { return editor->style().host.regions.size() == 1; }));
+    xdotool("key ctrl+s");
+    EXPECT_TRUE(until([&] { return !editor->unsaved(); })) << editor->message();
+    EXPECT_EQ(load_hairstyle("style.toml").host.regions, regions);
+}

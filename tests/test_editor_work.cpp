@@ -277,6 +277,25 @@ TEST_F(EditorWindow, two_styles_move_side_by_side_and_one_becomes_the_other)
     EXPECT_NEAR(a.solver().head().turn.y, b.solver().head().turn.y, 1e-9);
     EXPECT_NEAR(a.time() - b.time(), editor->beside().began, 1e-6);
     shoot("beside");
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key p");
+    ASSERT_TRUE(until([&] { return fs::exists("style-001.png"); })) << editor->message();
+    const Image both = load_png("style-001.png");
+    EXPECT_EQ(both.width, editor->view_width());
+    // The same head twice, from the same side: what differs between the halves is the hair.
+    const int half = both.width / 2;
+    const auto red = [&](int x, int y) { return int(both.pixels[size_t(4) * size_t(y * both.width + x)]); };
+    int heads[2] = {}, differ = 0; // pixels
+    for (int y = both.height / 8; y < both.height; ++y)
+        for (int x = 2; x < half; ++x)
+        {
+            heads[0] += std::abs(red(x, y) - red(2, y)) > 40;
+            heads[1] += std::abs(red(half + x, y) - red(half + 2, y)) > 40;
+            differ += std::abs(red(x, y) - red(half + x, y)) > 40;
+        }
+    EXPECT_GT(heads[0], both.height * half / 50);
+    EXPECT_GT(heads[1], both.height * half / 50);
+    EXPECT_GT(differ, both.height * half / 100) << "one of them has an afro";
     click(editor->beside().places.at("split"));
     EXPECT_TRUE(until([&] { return editor->beside().simulation == nullptr; }));
 
@@ -372,4 +391,73 @@ TEST_F(EditorWindow, a_collider_that_is_added_or_dragged_and_a_value_taken_back_
     frames(3);
     xdotool("key ctrl+z");
     EXPECT_TRUE(until([&] { return editor->style().host.colliders.at(0).center == placed; }));
+}
+
+TEST_F(EditorWindow, a_ring_is_dragged_over_the_head_and_taken_back)
+{
+    rewrite("style.toml",
+            contents(data_folder() / "hairstyles" / "pony_tail.toml") + "\n# fewer strands than that has\n");
+    std::string text = contents("style.toml");
+    text.replace(text.find("strands = 8000"), 14, "strands = 300");
+    rewrite("style.toml", text);
+    ASSERT_TRUE(within(2.0 * kSecond, [&] { return editor->style().host.ties.size() == 1; })) << editor->message();
+    frames(5);
+    const Tie placed = editor->style().host.ties[0];
+    const size_t edits = editor->history().edits.size();
+    const auto on_screen = [&](const Tie& tie)
+    {
+        const Pose& head = editor->simulation().solver().head();
+        const glm::dvec3 in_world = head.origin + head.turn * glm::dvec3(tie.at);
+        return *project(editor->camera(), in_world, editor->view_width(), 720);
+    };
+    const glm::dvec2 middle = on_screen(placed);
+    double x = 0.0, y = 0.0; // on the ring itself, nearest to its middle
+    for (int step = 0; step < 41 * 41; ++step)
+    {
+        const double at_x = middle.x - 40.0 + 2.0 * (step % 41), at_y = middle.y - 40.0 + 2.0 * (step / 41);
+        if (grab(editor->simulation(), editor->camera(), at_x, at_y, editor->view_width(), 720, false).what ==
+                Grab::TIE &&
+            std::hypot(at_x - middle.x, at_y - middle.y) < std::hypot(x - middle.x, y - middle.y))
+        {
+            x = at_x;
+            y = at_y;
+        }
+    }
+    ASSERT_GT(x, 0.0);
+    shoot("ring_before");
+    drag(x, y, x + 20.0, y + 70.0);
+    shoot("ring_held");
+    release();
+    const Tie moved = editor->style().host.ties.at(0);
+    EXPECT_LT(moved.at.y, placed.at.y - 0.02f) << "down the back of the head";
+    EXPECT_NE(moved.axis, placed.axis) << "and it leans as the head does there";
+    const glm::dvec2 now = on_screen(moved);
+    EXPECT_NEAR(now.x - middle.x, 20.0, 4.0) << "it is where the mouse has brought it";
+    EXPECT_NEAR(now.y - middle.y, 70.0, 4.0);
+    EXPECT_EQ(editor->simulation().style().host.ties.at(0), moved) << "and so is the hair";
+    EXPECT_EQ(editor->history().edits.size(), edits + 1) << "one drag, one edit";
+    EXPECT_EQ(editor->history().edits.back().what, "moved tie tail");
+    EXPECT_TRUE(editor->unsaved());
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key ctrl+z");
+    EXPECT_TRUE(until([&] { return editor->style().host.ties.at(0) == placed; }));
+    EXPECT_FALSE(editor->unsaved());
+}
+
+TEST_F(EditorWindow, a_file_that_changes_under_a_drag_ends_it)
+{
+    rewrite("style.toml", contents("style.toml") + "[[collider]]\ncenter = [0.25, 0.0, 0.1]\nradius = 0.05\n");
+    ASSERT_TRUE(within(kSecond, [&] { return editor->style().host.colliders.size() == 1; }));
+    const Pose& head = editor->simulation().solver().head();
+    const glm::dvec2 middle =
+        *project(editor->camera(), head.origin + glm::dvec3(0.25, 0.0, 0.1), editor->view_width(), 720);
+    point(middle.x, middle.y);
+    press();
+    rewrite("style.toml", "[interpolation]\nstrands = 300\n"); // without what the hand holds
+    ASSERT_TRUE(within(kSecond, [&] { return editor->style().host.colliders.empty(); }));
+    point(middle.x + 20.0, middle.y);
+    point(middle.x + 40.0, middle.y);
+    release();
+    EXPECT_TRUE(open);
+    EXPECT_FALSE(editor->unsaved());
 }

@@ -48,7 +48,7 @@ TEST(Lists, each_changes_the_hair)
         Hairstyle changed = style;
         if (info.path() == "region")
             changed.host.regions = {
-                {"all", {"top"}, {}, {}, {}, false, 0.0f, {{find_param("strand.length"), glm::vec4(0.1f)}}}};
+                {"all", {"top"}, {}, {}, {}, {}, false, 0.0f, {{find_param("strand.length"), glm::vec4(0.1f)}}}};
         else if (info.path() == "parting")
             changed.host.partings = {{{{0.03f, 0.07f, 0.09f}, {0.03f, 0.11f, 0.0f}}, 0.06f}};
         else if (info.path() == "map")
@@ -77,7 +77,7 @@ TEST(Lists, each_parameter_that_may_vary_acts_in_a_region)
     Hairstyle style;
     style.params.interpolation_strands = 300;
     style.params.bending_modulus = 0.0f;
-    style.host.regions = {{"top", {"top"}, {}, {}, {}, false, 0.0f, {}}};
+    style.host.regions = {{"top", {"top"}, {}, {}, {}, {}, false, 0.0f, {}}};
     const std::vector<char> plain = played(style);
     for (const ParamInfo& info : param_table())
     {

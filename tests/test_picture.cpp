@@ -209,20 +209,10 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
     const FrameInput before = frame_of(small_style(base));
     const Image reference = renderer->picture(before, 160, 90);
     EXPECT_TRUE(renderer->picture(before, 160, 90).pixels == reference.pixels);
-    const std::vector<std::string> in_shaders_only = {"wave.normal_frequency",
-                                                      "wave.normal_randomness",
-                                                      "wave.binormal_frequency",
-                                                      "wave.binormal_randomness",
-                                                      "curl.pitch",
-                                                      "curl.hand",
-                                                      "curl.phase",
-                                                      "curl.variation",
-                                                      "frizz.frequency",
-                                                      "head.mesh_scale"};
     int acting = 0;
     for (const ParamInfo& info : param_table())
     {
-        const bool listed = std::count(in_shaders_only.begin(), in_shaders_only.end(), info.path()) > 0;
+        const bool listed = read_by_shaders_only().contains(info.path()) || info.path() == "head.mesh_scale";
         if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample")
             continue;
         Hairstyle style = small_style(base);

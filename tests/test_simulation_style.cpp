@@ -74,20 +74,8 @@ TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther
 {
     // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
     // the shaders read of a wave. There is one way yet to choose guides.
-    const std::set<std::string> elsewhere = {"head.mesh_scale",
-                                             "head.unit",
-                                             "head.up",
-                                             "wave.normal_frequency",
-                                             "wave.normal_randomness",
-                                             "wave.binormal_frequency",
-                                             "wave.binormal_randomness",
-                                             "curl.pitch",
-                                             "curl.hand",
-                                             "curl.phase",
-                                             "curl.variation",
-                                             "frizz.frequency",
-                                             "interpolation.guides",
-                                             "head.contact"};
+    std::set<std::string> elsewhere = read_by_shaders_only();
+    elsewhere.insert({"head.mesh_scale", "head.unit", "head.up", "interpolation.guides", "head.contact"});
     struct Settled
     {
         std::vector<uint8_t> position, velocity;

@@ -6,6 +6,7 @@
 #include "sim/source.h"
 #include "tests/host/scratch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace coif
@@ -119,6 +120,124 @@ TEST(Brush, mirror_paints_both_sides_alike)
             (scalp.positions[v].x > 0.0f ? left : right) += 1;
     EXPECT_GT(left, 2);
     EXPECT_GT(right, 2);
+}
+
+TEST(Brush, mirrored_halves_are_mirror_images_wherever_the_stroke_runs)
+{
+    const Scalp scalp = whole_scalp();
+    const size_t count = scalp.positions.size();
+    std::vector<size_t> twin(count, count); // across the middle of the head
+    for (size_t v = 0; v < count; ++v)
+        for (size_t w = 0; w < count; ++w)
+            if (glm::distance(scalp.positions[w] * glm::vec3(-1, 1, 1), scalp.positions[v]) < 1e-4f &&
+                glm::distance(scalp.normals[w] * glm::vec3(-1, 1, 1), scalp.normals[v]) < 1e-3f)
+                twin[v] = w;
+    for (const BrushKind kind : {BrushKind::LENGTH, BrushKind::COMB})
+    {
+        Hairstyle style;
+        Brush brush;
+        brush.kind = kind;
+        brush.mirror = true;
+        brush.radius = 0.05f;
+        // Over the crown from one side to the other.
+        for (float x = -0.04f; x < 0.041f; x += 0.01f)
+            apply_brush(style, scalp, straight(scalp), brush, {{x, 0.11f, 0.0f}, {0.01f, 0.0f, 0.004f}});
+        int touched = 0;
+        for (size_t v = 0; v < count; ++v)
+        {
+            if (twin[v] == count)
+                continue;
+            if (kind == BrushKind::LENGTH)
+            {
+                const float length = value_at(style, scalp, v, "strand.length");
+                EXPECT_NEAR(length, value_at(style, scalp, twin[v], "strand.length"), 1e-4f) << v;
+                touched += length < 0.2f;
+                continue;
+            }
+            const StrandShapes& combed = *style.host.groom_rest.shapes;
+            const glm::vec3 tip = combed.position[v * 16 + 15], other = combed.position[twin[v] * 16 + 15];
+            EXPECT_LT(glm::distance(tip * glm::vec3(-1, 1, 1), other), 2e-3f) << v;
+            touched += glm::distance(tip, straight(scalp).position[v * 16 + 15]) > 0.02f;
+        }
+        EXPECT_GT(touched, 10);
+    }
+}
+
+TEST(Brush, a_region_is_painted_taken_out_and_written)
+{
+    const Scalp scalp = whole_scalp();
+    const glm::vec3 at = scalp.positions[40];
+    const auto weight = [&](const Hairstyle& style, size_t vertex)
+    { return region_weight(shape_over(style.params, style.host, scalp, scalp), 0, at_vertex(scalp, vertex)); };
+    Brush brush;
+    brush.kind = BrushKind::REGION;
+    brush.region = "mine";
+    brush.strength = 1.0f;
+    brush.falloff = 0.0f;
+    Hairstyle style;
+    brush.weight = 0.0f;
+    EXPECT_FALSE(apply_brush(style, scalp, {}, brush, {at, {}})) << "nothing can be taken out of what is not there";
+    EXPECT_TRUE(style.host.regions.empty());
+    brush.weight = 1.0f;
+    ASSERT_TRUE(apply_brush(style, scalp, {}, brush, {at, {}}));
+    ASSERT_EQ(style.host.regions.size(), 1u);
+    EXPECT_FALSE(apply_brush(style, scalp, {}, brush, {at, {}})) << "it belongs to it already";
+    for (size_t v = 0; v < scalp.positions.size(); ++v)
+        EXPECT_EQ(weight(style, v), glm::distance(scalp.positions[v], at) < brush.radius ? 1.0f : 0.0f) << v;
+    style.host.regions[0].settings.push_back({find_param("strand.length"), {0.02f, 0.0f, 0.0f, 0.0f}});
+    EXPECT_FLOAT_EQ(value_at(style, scalp, 40, "strand.length"), 0.02f);
+
+    brush.strength = 0.5f;
+    brush.weight = 0.0f;
+    EXPECT_TRUE(apply_brush(style, scalp, {}, brush, {at, {}}));
+    EXPECT_FLOAT_EQ(weight(style, 40), 0.5f);
+    const test::Scratch scratch;
+    const std::vector<Region> painted = style.host.regions;
+    save_hairstyle(style, scratch / "painted.toml");
+    EXPECT_EQ(load_hairstyle(scratch / "painted.toml").host.regions, painted);
+
+    Brush picked;
+    pick_value(picked, style, scalp, at);
+    EXPECT_EQ(picked.region, "") << "half is not more than not";
+    brush.weight = 1.0f;
+    apply_brush(style, scalp, {}, brush, {at, {}});
+    pick_value(picked, style, scalp, at);
+    EXPECT_EQ(picked.region, "mine");
+}
+
+TEST(Brush, a_region_told_by_a_rule_keeps_its_shape_when_it_is_painted)
+{
+    const Scalp scalp = whole_scalp();
+    Hairstyle style;
+    Region region;
+    region.name = "sides";
+    region.where = {"top", "crown"};
+    region.planes = {{0.0f, 0.0f, 1.0f, -0.02f}};
+    region.invert = true;
+    style.host.regions = {region};
+    const Shaping rule = shape_over(style.params, style.host, scalp, scalp);
+    std::vector<float> before;
+    for (size_t v = 0; v < scalp.positions.size(); ++v)
+        before.push_back(region_weight(rule, 0, at_vertex(scalp, v)));
+    const size_t out = size_t(std::ranges::find(before, 0.0f) - before.begin());
+    ASSERT_LT(out, before.size());
+    Brush brush;
+    brush.kind = BrushKind::REGION;
+    brush.region = "sides";
+    brush.radius = 0.015f;
+    brush.strength = 1.0f;
+    ASSERT_TRUE(apply_brush(style, scalp, {}, brush, {scalp.positions[out], {}}));
+    EXPECT_TRUE(is_painted_only(style.host.regions[0]));
+    const Shaping painted = shape_over(style.params, style.host, scalp, scalp);
+    for (size_t v = 0; v < scalp.positions.size(); ++v)
+    {
+        const float now = region_weight(painted, 0, at_vertex(scalp, v));
+        if (glm::distance(scalp.positions[v], scalp.positions[out]) >= brush.radius)
+        {
+            EXPECT_FLOAT_EQ(now, before[v]) << v;
+        }
+    }
+    EXPECT_EQ(region_weight(painted, 0, at_vertex(scalp, out)), 1.0f) << "outside the rule too";
 }
 
 TEST(Brush, erase_takes_back_and_leaves_no_empty_maps)
@@ -242,6 +361,8 @@ TEST(Brush, any_strokes_leave_a_style_that_can_be_written_read_and_grown)
         brush.mirror = random() % 2;
         brush.length = float(test::between(random, 0.002, 1.5));
         brush.density = float(test::between(random, 0.0, 1.0));
+        brush.region = random() % 2 ? "a" : "b";
+        brush.weight = float(random() % 2);
         const glm::vec3 at = scalp.positions[random() % scalp.positions.size()];
         const glm::vec3 along(test::between(random, -0.03, 0.03), test::between(random, -0.03, 0.03), 0.0);
         apply_brush(style, scalp, straight(scalp), brush, {at, along});
@@ -254,6 +375,8 @@ TEST(Brush, any_strokes_leave_a_style_that_can_be_written_read_and_grown)
     save_hairstyle(style, scratch / "painted.toml");
     const Hairstyle again = load_hairstyle(scratch / "painted.toml");
     EXPECT_EQ(again.host.maps, painted.maps);
+    EXPECT_EQ(again.host.regions, painted.regions);
+    EXPECT_FALSE(painted.regions.empty());
     ASSERT_TRUE(again.host.groom_rest.shapes);
     EXPECT_EQ(*again.host.groom_rest.shapes, *painted.groom_rest.shapes);
     EXPECT_EQ(again.host.groom_rest.file, "painted.rest");

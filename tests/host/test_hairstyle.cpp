@@ -1,11 +1,14 @@
 // Hairstyle files: what a save writes, keeps and replaces.
 #include "sim/hairstyle.h"
+#include "sim/hairstyle_lists.h"
 #include "tests/host/entries.h"
 #include "tests/host/scratch.h"
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -298,6 +301,28 @@ TEST(Hairstyle, a_save_that_fails_leaves_the_old_file_whole_and_the_style_as_it_
     EXPECT_EQ(files_in(scratch / "shut"), 1u);
     EXPECT_EQ(style.params.strand_length, 0.3f);
     EXPECT_EQ(style.text, "[strand]\nlength = 0.2\n");
+}
+
+TEST(Hairstyle, a_disk_that_is_full_is_told_and_loses_nothing)
+{
+    const Scratch scratch;
+    const fs::path file = scratch.write("bob.toml", "[strand]\nlength = 0.2\n");
+    Hairstyle style = load_hairstyle(file);
+    style.host.maps.push_back({"strand.length", MAP_OFFSET, std::vector<float>(kMostInline, 0.1f), {}});
+    // No file may grow beyond this: to a program that is as a disk without room.
+    rlimit before;
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight = {1000, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &tight);
+    const std::string error = error_of([&] { save_hairstyle(style, file); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(error, file.string() + ": cannot be written: File too large; make room, or save elsewhere");
+    EXPECT_EQ(bytes_of(file), "[strand]\nlength = 0.2\n");
+    EXPECT_EQ(files_in(scratch.folder()), 1u);
+    save_hairstyle(style, file);
+    EXPECT_EQ(load_hairstyle(file).host.maps, style.host.maps);
 }
 
 TEST(Hairstyle, a_save_leaves_nothing_beside_the_file)

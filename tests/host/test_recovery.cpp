@@ -93,6 +93,9 @@ TEST(Recovery, what_lies_in_files_beside_a_style_is_kept_too)
         shapes.position.emplace_back(0.01f * float(i), 0.2f, -0.3f);
     style.host.groom_rest.shapes = std::make_shared<const StrandShapes>(shapes);
     style.host.maps.push_back({"strand.length", MAP_OFFSET, std::vector<float>(5000, 0.25f), "my.map"});
+    style.host.regions.emplace_back().name = "painted";
+    style.host.regions[0].weights.assign(5000, 0.5f);
+    style.host.regions[0].file = "my.region";
     Autosave(folder, 1ms).keep(style);
     const std::vector<Recovery> found = find_recoveries(folder);
     ASSERT_EQ(found.size(), 1u);
@@ -101,7 +104,10 @@ TEST(Recovery, what_lies_in_files_beside_a_style_is_kept_too)
     EXPECT_EQ(*again.host.groom_rest.shapes, shapes);
     ASSERT_EQ(again.host.maps.size(), 1u);
     EXPECT_EQ(again.host.maps[0].values, style.host.maps[0].values);
-    EXPECT_FALSE(fs::exists(scratch / "my.map")) << "nothing is written beside the style before it is saved";
+    ASSERT_EQ(again.host.regions.size(), 1u);
+    EXPECT_EQ(again.host.regions[0].weights, style.host.regions[0].weights);
+    EXPECT_FALSE(fs::exists(scratch / "my.map") || fs::exists(scratch / "my.region"))
+        << "nothing is written beside the style before it is saved";
 }
 
 TEST(Recovery, two_editors_of_one_file_keep_their_own_and_only_one_takes_over_a_third)
