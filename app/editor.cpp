@@ -40,6 +40,12 @@ void Editor::guarded(const std::function<void()>& action)
     }
 }
 
+std::unique_ptr<Simulation> Editor::alive(const Hairstyle& style)
+{
+    return std::make_unique<Simulation>(device_, style,
+                                        [this](double share) { waiting_->say("the hair falls to rest", share); });
+}
+
 void Editor::reset_hair()
 {
     guarded([&] { simulation_->reset(); });
@@ -74,7 +80,8 @@ Editor::Editor(const Options& options)
     ImGui_ImplSDL2_InitForOpenGL(window_.sdl(), window_.context());
     ImGui_ImplOpenGL3_Init("#version 150");
     renderer_ = std::make_unique<Renderer>(data_folder() / "shaders");
-    simulation_ = std::make_unique<Simulation>(device_, style_);
+    waiting_ = std::make_unique<Waiting>(window_);
+    simulation_ = alive(style_);
     simulation_->settle(kSettle);
     // --set changes the style on screen, not what is on disk.
     saved_ = options.sets.empty() ? style_ : load_hairstyle(style_.file);
@@ -92,6 +99,7 @@ Editor::~Editor()
     next_keep_ = 0.0;
     keep_settings();
     browse(false);
+    waiting_.reset();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplSDL2_Shutdown();
     ImGui::DestroyContext();

@@ -8,6 +8,7 @@
 #include "app/settings.h"
 #include "app/thumbnails.h"
 #include "app/viewport.h"
+#include "app/waiting.h"
 #include "app/watch.h"
 #include "sim/health.h"
 
@@ -98,6 +99,7 @@ class Editor
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
+    const Waiting& waiting() const { return *waiting_; }
 
   private:
     struct Close
@@ -171,13 +173,15 @@ class Editor
     void undo_last();
     void go_back(size_t edit); // or forth, to that state of history_
     void carry_out(const Intent& intent);
-    void guarded(const std::function<void()>& action); // errors become the message
+    void guarded(const std::function<void()>& action);         // errors become the message
+    std::unique_ptr<Simulation> alive(const Hairstyle& style); // with a word to who waits for it to fall
 
     Window window_;
     Device device_;
     Hairstyle style_, saved_; // as edited; as last read or written
     History history_;
     size_t history_seen_ = 0; // edits in its window
+    std::unique_ptr<Waiting> waiting_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written

@@ -48,7 +48,7 @@ void Editor::split(bool on)
     guarded(
         [&]
         {
-            auto other = std::make_unique<Simulation>(device_, *beside_.style);
+            auto other = alive(*beside_.style);
             if (!beside_.renderer)
                 beside_.renderer = std::make_unique<Renderer>(data_folder() / "shaders");
             other->step(simulation_->hand()); // a leap to where the head is

@@ -47,8 +47,10 @@ int report(const Options& options, const ReportOptions& wanted)
     const Hairstyle style = load_style(options);
     const Device device = open_device(options);
     const Progress progress;
-    progress.say(style.name() + ": falls to rest"); // thousands of guides take minutes
-    Simulation simulation(device, style);
+    progress.say(style.name() + ": grows");
+    Simulation simulation(device, style,
+                          [&](double share)
+                          { progress.say(fmt::format("{}: falls to rest, {:.0f} %", style.name(), 100.0 * share)); });
     simulation.settle(wanted.settle);
     simulation.solver().take_times();
     simulation.play(motion);

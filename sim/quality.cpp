@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/scatter.h"
+#include "sim/simulation.h"
 
 #include <glm/geometric.hpp>
 
@@ -179,6 +180,15 @@ static std::vector<Rung> climb(const Device& device, const HairParams& params, c
     return rungs;
 }
 
+// With its ties: hair behind a ring swings otherwise.
+static Groom as_grown(const Hairstyle& style, const Scalp& scalp)
+{
+    if (style.host.ties.empty())
+        return grow(style.params, scalp, style.host);
+    Assets assets = load_assets(style);
+    return grown(style, assets);
+}
+
 Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality)
 {
     constexpr int kMostNodes = 64;
@@ -223,7 +233,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     while (p.interpolation_refine < most &&
            error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > of_guides)
         ++p.interpolation_refine;
-    const Groom groom = grow(p, scalp, style.host);
+    const Groom groom = as_grown(live, scalp);
     quality.guide_error = all ? 0.0 : error_of_guides(p, scalp, groom.guides);
     note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
     const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");

@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include "sim/error.h"
+#include "sim/material.h"
 #include "sim/rest_shape.h"
 #include "sim/shaping.h"
 #include "sim/source.h"
@@ -183,7 +184,8 @@ static bool grown_otherwise(const Hairstyle& a, const Hairstyle& b)
            has_clumps(a.params) != has_clumps(b.params);
 }
 
-Simulation::Simulation(const Device& device, Hairstyle style) : device_(device), authored_(std::move(style))
+Simulation::Simulation(const Device& device, Hairstyle style, Falling falling)
+    : device_(device), falling_(std::move(falling)), authored_(std::move(style))
 {
     assets_ = load_assets(authored_);
     style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
@@ -206,31 +208,46 @@ void Simulation::drape()
 {
     if (style_.params.solver_kind != 0 || style_.host.groom_rest.shapes) // which is where it rests
         return;
+    constexpr int kLookEvery = 16, kMost = 320; // steps
+    constexpr double kThick = 15.0;             // 1/s: near critical for the slowest swing of 0.2 m
     HairParams own = style_.params;
     own.solver_courant = std::max(own.solver_courant, 1.0f); // where hair rests does not hang on the substeps
     HairParams thick = own;
-    thick.forces_drag = std::max(thick.forces_drag, 15.0f); // near critical for the slowest swing of 0.2 m
+    thick.forces_drag = std::max(thick.forces_drag, float(kThick));
     thick.forces_friction *= 0.5f;
-    constexpr int kLookEvery = 16, kMost = 320;                   // steps
-    const double calm = 0.001 * double(solver_->groom().longest); // m/s
-    for (const bool again : {false, true})
+    const double longest = double(solver_->groom().longest); // m
+    const float4& wind = own.forces_wind;
+    const bool gusts = own.forces_turbulence > 0.0f && (wind.x != 0.0f || wind.y != 0.0f || wind.z != 0.0f);
+    const double calm = (gusts ? 0.01 : 0.001) * longest; // m/s: they move it anyhow
+    // Wind, or a strand that jerks between bodies, lets hair never rest: it has fallen as far as it will once it gets
+    // no calmer. What falls twice its length through that air, at the same speed all the way, must not seem so.
+    const double fall = 2.0 * longest * kThick / std::max(kGravity * std::abs(double(own.forces_gravity)), 1e-3); // s
+    const int patience = int(std::clamp(60.0 * fall, 80.0, double(kMost)));
+    const int falls = style_.params.bending_hold == 0.0f ? 2 : 4;
+    for (int f = 0; f < falls; ++f)
     {
-        if (again && style_.params.bending_hold == 0.0f)
-            break;
-        for (const HairParams& params : {thick, own})
+        solver_->set_params(f % 2 ? own : thick);
+        solver_->fastest();
+        double calmest = INFINITY; // m/s
+        for (int i = 1, since = 0; i <= kMost && since < patience; ++i, ++since)
         {
-            solver_->set_params(params);
-            solver_->fastest();
-            for (int i = 1; i <= kMost; ++i)
+            if (falling_ && (i - 1) % kLookEvery == 0)
+                falling_((f + (i - 1.0) / kMost) / falls);
+            solver_->step({{hand_, time_, 1.0f / 60.0f}});
+            if (i % kLookEvery)
+                continue;
+            solver_->take_times(); // lets the queue's uploads go
+            const double fastest = solver_->fastest();
+            if (fastest < calm)
+                break;
+            if (fastest < 0.9 * calmest)
             {
-                solver_->step({{hand_, time_, 1.0f / 60.0f}});
-                if (i % kLookEvery)
-                    continue;
-                solver_->take_times(); // lets the queue's uploads go
-                if (solver_->fastest() < calm)
-                    break;
+                calmest = fastest;
+                since = 0;
             }
         }
+        if (f % 2 == 0)
+            continue;
         Groom groom = solver_->groom();
         const Mapped position = solver_->guide_positions();
         groom.rest_position = in_head_frame(position.as<float>(), groom, hand_.turn);
@@ -239,6 +256,8 @@ void Simulation::drape()
     }
     solver_->set_params(style_.params);
     solver_->take_times();
+    if (falling_)
+        falling_(1.0);
 }
 
 // Does nothing differ that what a tolerance asks for hangs on?

@@ -6,6 +6,7 @@
 #include "sim/solver.h"
 #include "sim/tied_hair.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -48,12 +49,17 @@ Groom grown(const Hairstyle& style, Assets& assets);
 // none is.
 std::string doubtful_ties(const Hairstyle& style, const Groom& groom);
 
+// Told what share of the steps is done, at most, that hair takes to fall to rest: 0 as it begins, 1 as it ends. Of many
+// guides that is minutes.
+using Falling = std::function<void(double share)>;
+
 // A hairstyle that lives: assets, groom and solver, and the time that runs in fixed steps whatever the frame rate.
 class Simulation
 {
   public:
-    // Throws Error for what the style names and cannot be had.
-    Simulation(const Device& device, Hairstyle style);
+    // Hair falls to rest here and where set_style() changes what it rests in; `falling` must outlive this. Throws Error
+    // for what the style names and cannot be had.
+    Simulation(const Device& device, Hairstyle style, Falling falling = {});
 
     const Hairstyle& style() const { return authored_; }
     const HairParams& params() const
@@ -99,6 +105,7 @@ class Simulation
     void set_bodies(const Hairstyle& style);
 
     const Device& device_;
+    Falling falling_;
     Hairstyle authored_, style_; // as written, and as simulated
     Quality quality_;
     Assets assets_;

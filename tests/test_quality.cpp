@@ -21,7 +21,7 @@ Hairstyle preset(const char* name, const char* tolerance)
 
 TEST(Quality, ErrorsArePredictedWithinAFactorOfTwo)
 {
-    for (const char* name : {"bob", "curly", "brush"})
+    for (const char* name : {"bob", "curly", "brush", "pony_tail"})
         for (const char* tolerance : {"3", "0.5"})
         {
             const Simulation simulation(test_device(), preset(name, tolerance));

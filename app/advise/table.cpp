@@ -15,7 +15,9 @@ static const char* word(Verdict verdict)
     case Verdict::LEAVE_OUT:
         return "leave out";
     case Verdict::TOGETHER_NOT:
-        return "keep: with the others it is too much";
+        return "keep: with what saves more it is too much";
+    case Verdict::SAVES_NOTHING:
+        return "keep: it saves nothing";
     case Verdict::KEEP:
         return "keep";
     case Verdict::LACKS:
