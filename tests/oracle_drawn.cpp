@@ -394,12 +394,12 @@ std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& st
     const int n = guides.nodes;
     const glm::dquat turn =
         glm::angleAxis(double(strand.weights.x), Vec(0, 1, 0)) * glm::angleAxis(double(strand.weights.y), Vec(1, 0, 0));
-    const Vec center = xyz(info.head_center);
+    const Vec root = to_head(info, guides.position[size_t(strand.guide0 * n + 1)]);
     std::vector<Vec> node;
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < n; ++k) // about its root, which it has been given a place of its own for
     {
-        const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - center;
-        node.push_back(to_world(info, turn * own + center));
+        const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - root;
+        node.push_back(to_world(info, turn * own + xyz(strand.root)));
     }
     return finished(node, strand, number, params, colliders, info, body, besides);
 }
