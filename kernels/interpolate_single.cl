@@ -1,5 +1,6 @@
-// Drawn strands that are copies of one guide, turned about the head's centre by two random angles (thesis 5.1.4); they
-// come after the mixed strands. Work-item: WIDTH strands.
+// Drawn strands that are copies of one guide, turned about the head's centre by two random angles (thesis 5.1.4) and
+// moved to a root of their own, which on a head that is no ball the turn alone would miss; they come after the mixed
+// strands. Work-item: WIDTH strands.
 #include "interpolate.h"
 
 kernel void interpolate_single(global const float* position, global const DrawnStrand* strands,
@@ -12,12 +13,16 @@ kernel void interpolate_single(global const float* position, global const DrawnS
         return;
     int strand[WIDTH], guide[WIDTH];
     number_lanes(first, info->drawn, strand);
-    float yaw[WIDTH], pitch[WIDTH];
+    float yaw[WIDTH], pitch[WIDTH], rx[WIDTH], ry[WIDTH], rz[WIDTH];
     for (int lane = 0; lane < WIDTH; ++lane)
     {
-        guide[lane] = strand_value(strands[strand[lane]].guide0, 0, 0, NODES);
-        yaw[lane] = strands[strand[lane]].weights.x;
-        pitch[lane] = strands[strand[lane]].weights.y;
+        const DrawnStrand own = strands[strand[lane]];
+        guide[lane] = strand_value(own.guide0, 0, 0, NODES);
+        yaw[lane] = own.weights.x;
+        pitch[lane] = own.weights.y;
+        rx[lane] = own.root.x;
+        ry[lane] = own.root.y;
+        rz[lane] = own.root.z;
     }
     const real cy = cos(LANES_LOAD(yaw)), sy = sin(LANES_LOAD(yaw));
     const real cp = cos(LANES_LOAD(pitch)), sp = sin(LANES_LOAD(pitch));
@@ -35,5 +40,9 @@ kernel void interpolate_single(global const float* position, global const DrawnS
         const Points turned = points(cy * x + sy * pz + center.x, py + center.y, cy * pz - sy * x + center.z);
         node[k] = turn_by(r0, r1, r2, turned);
     }
+    const Points root = turn_by(r0, r1, r2, points(LANES_LOAD(rx), LANES_LOAD(ry), LANES_LOAD(rz)));
+    const Points shift = points(root.x - node[1].x, root.y - node[1].y, root.z - node[1].z);
+    for (int k = 0; k < NODES; ++k)
+        node[k] = points(node[k].x + shift.x, node[k].y + shift.y, node[k].z + shift.z);
     finish_strands(node, strand, strands, looks, drawn_position, depth, body_distance, body_way, colliders, params, info);
 }

@@ -210,7 +210,9 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
         y[i] = select(y[i], y[1] + rest * (float)(i - 1) * wy, bad != 0);
         z[i] = select(z[i], z[1] + rest * (float)(i - 1) * wz, bad != 0);
     }
-    HOLD_NODES(2, NODES);
+#ifdef HELD // one that a tie holds, from where it rests in it
+    hold_nodes(x, y, z, 2, NODES, rest_position + first, select(held, (whole)(NODES), bad & (held > 2)), info);
+#endif
 
     const float per_second = 1.0f / h;
     for (int i = 0; i < NODES; ++i)

@@ -198,23 +198,26 @@ static void grow_multi(Groom& groom, Ground& ground, int count)
     }
 }
 
-// Where a point beside a guide stands on the scalp; no corners where no triangle is near.
+// The place on the scalp that is nearest to a point beside it, if one is near.
 static std::optional<ScalpPlace> place_near(const Scalp& scalp, const std::vector<unsigned>& triangles, glm::vec3 point)
 {
+    float nearest = 0.02f * scalp.extent;
+    std::optional<ScalpPlace> place;
     for (const unsigned index : triangles)
     {
         const glm::uvec3 t = scalp.triangles[index];
         const glm::vec3 a = scalp.positions[t.x], b = scalp.positions[t.y], c = scalp.positions[t.z];
         const glm::vec3 away = from_triangle(point, a, b, c);
-        if (glm::length(away) >= 0.02f * scalp.extent)
+        if (!(glm::length(away) < nearest))
             continue;
+        nearest = glm::length(away);
         const glm::vec3 normal = glm::cross(b - a, c - a), on = point - away;
         const float twice = std::max(glm::dot(normal, normal), 1e-30f);
         const float u = glm::clamp(glm::dot(glm::cross(c - b, on - b), normal) / twice, 0.0f, 1.0f);
         const float v = glm::clamp(glm::dot(glm::cross(a - c, on - c), normal) / twice, 0.0f, 1.0f - u);
-        return ScalpPlace{point, t, {u, v, 1.0f - u - v}};
+        place = {on, t, {u, v, 1.0f - u - v}};
     }
-    return std::nullopt;
+    return place;
 }
 
 static glm::vec3 turned(glm::vec3 v, glm::vec3 center, float yaw, float pitch)

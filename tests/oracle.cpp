@@ -222,10 +222,10 @@ Plane plane_at(const Body& body, Vec p, const StepInfo& info)
     return {distance * info.body_corner.w, glm::normalize(normal)};
 }
 
-static void collide(Vec* x, int nodes, const std::vector<Capsule>& colliders)
+static void collide(Vec* x, int begin, int end, const std::vector<Capsule>& colliders)
 {
     for (const Capsule& collider : colliders)
-        for (int i = 2; i < nodes; ++i)
+        for (int i = begin; i < end; ++i)
         {
             const Vec center = nearest_on_axis(collider, x[i]), out = x[i] - center;
             const double distance = glm::length(out), radius = collider.center.w;
@@ -250,7 +250,7 @@ struct HeldPlane
     void push_out(Vec& p) const { p += normal * std::max(0.0, level - glm::dot(p, normal)); }
 };
 
-static double inverse_mass(int node) { return node < 2 ? 0.0 : 1.0; }
+static double inverse_mass(int node, int held) { return node < held ? 0.0 : 1.0; }
 
 // Distance constraint of Mueller et al. 2007, eq. 10 and 11, times a strength.
 static void keep_distance(Vec& a, Vec& b, double mass_a, double mass_b, double rest, double strength,
@@ -266,22 +266,25 @@ static void keep_distance(Vec& a, Vec& b, double mass_a, double mass_b, double r
         b -= mass_b * correction + (rounding ? rounding() : Vec(0.0));
 }
 
-static void sweep(Vec* x, int nodes, double rest, double strength, const std::vector<Capsule>& colliders,
+// The first `held` nodes are prescribed.
+static void sweep(Vec* x, int nodes, int held, double rest, double strength, const std::vector<Capsule>& colliders,
                   const std::vector<HeldPlane>& head, const HairParams& params, const StepInfo& info,
                   const std::function<Vec()>& rounding)
 {
-    for (int i = 2; i < nodes; ++i)
+    for (int i = held; i < nodes; ++i)
         head[size_t(i)].push_out(x[i]);
-    collide(x, nodes, colliders);
+    collide(x, held, nodes, colliders);
     for (const int first : {2, 1})
         for (int i = first; i + 1 < nodes; i += 2)
-            keep_distance(x[i], x[i + 1], inverse_mass(i), inverse_mass(i + 1), rest, strength, rounding);
-    // Thesis' angular constraint: node i as far from node 0 as on a straight strand; eq. 5.6 for its attenuation.
-    for (int i = 2; i < nodes; ++i)
+            keep_distance(x[i], x[i + 1], inverse_mass(i, held), inverse_mass(i + 1, held), rest, strength, rounding);
+    // Thesis' angular constraint: node i as far from node 0, or the last held one but one, as on a straight strand; eq.
+    // 5.6 for its attenuation.
+    for (int i = held; i < nodes; ++i)
     {
         const double bend =
             std::clamp(double(info.bend) / std::pow(i - 1.0, double(params.solver_bending_attenuation)), 0.0, 1.0);
-        keep_distance(x[0], x[i], 0.0, 1.0, rest * i * params.solver_bending_scale, bend, rounding);
+        keep_distance(x[held - 2], x[i], 0.0, 1.0, rest * (i - (held - 2)) * params.solver_bending_scale, bend,
+                      rounding);
     }
 }
 
@@ -318,13 +321,18 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
             x[size_t(i)] = before[size_t(i)] + h * velocity - move;
         }
 
+        const int held = strands.held.empty() ? 2 : strands.held[size_t(s)];
+        for (int i = 2; i < held; ++i)
+            x[size_t(i)] = to_world(strands.rest_position[size_t(s * n + i)]);
+
         std::vector<HeldPlane> head(static_cast<size_t>(n));
-        for (int i = 2; i < n && !body.distance.empty(); ++i)
+        for (int i = held; i < n && !body.distance.empty(); ++i)
             head[size_t(i)] = HeldPlane(body, x[size_t(i)], info);
         for (int k = 1; k <= params.solver_iterations; ++k)
-            sweep(x.data(), n, rest, double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0),
-                  colliders, head, params, info, rounding);
-        for (int i = 2; i < n; ++i) // the closing walk
+            sweep(x.data(), n, held, rest,
+                  double(info.stretch) * (k < params.solver_iterations ? double(info.relax) : 1.0), colliders, head,
+                  params, info, rounding);
+        for (int i = held; i < n; ++i) // the closing walk
             for (int turns = 0; turns < 8; ++turns)
             {
                 const Vec segment = x[size_t(i)] - x[size_t(i - 1)];
@@ -334,16 +342,19 @@ void simulate_pbd(Strands& strands, Forces forces, const std::vector<Vec>& gradi
                 if (turns % 3 == 0 && !body.distance.empty())
                     head[size_t(i)] = HeldPlane(body, x[size_t(i)], info);
                 head[size_t(i)].push_out(x[size_t(i)]);
-                collide(x.data() + i - 2, 3, colliders); // this node only
+                collide(x.data(), i, i + 1, colliders);
             }
 
-        bool finite = true;
+        bool finite = true; // as it came, and now
+        for (const Vec& p : before)
+            finite = finite && std::isfinite(p.x + p.y + p.z);
         for (int i = 2; i < n; ++i)
             finite = finite && std::abs(x[size_t(i)].x) + std::abs(x[size_t(i)].y) + std::abs(x[size_t(i)].z) < 1e6;
         if (!finite)
         {
             for (int i = 2; i < n; ++i)
-                x[size_t(i)] = x[1] + rest * (i - 1) * along;
+                x[size_t(i)] =
+                    held > 2 ? to_world(strands.rest_position[size_t(s * n + i)]) : x[1] + rest * (i - 1) * along;
             ++strands.resets[size_t(s)];
         }
         for (int i = 0; i < n; ++i)

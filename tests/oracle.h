@@ -26,6 +26,8 @@ struct Strands
     std::vector<Vec> root_position, root_direction; // [strand], in the head's frame
     std::vector<double> segment_length;             // [strand]
     std::vector<int> resets;                        // [strand]
+    std::vector<int> held;          // [strand]: nodes that are prescribed, at rest_position; empty: 2, by the root
+    std::vector<Vec> rest_position; // [strand][node], in the head's frame; where strands are held, or start again
 
     int count() const { return int(segment_length.size()); }
 };
@@ -114,14 +116,27 @@ std::vector<double> depth_in_head(const Body& body, int resolution, const StepIn
 Vec out_of_union(Vec p, const std::vector<Capsule>& colliders, double room);
 Vec out_of_body(Vec p, const Body& body, double room, const StepInfo& info);
 
-// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), cut, let fly away if it is one that does (its
-// number tells whether it leads a clump), out of the colliders. Light apart.
+// What a groom says of one drawn strand besides how it is mixed, where it says anything: the look that varies over the
+// scalp, and the ring that it is tied in with what hangs out of that.
+struct Besides
+{
+    const StrandLook* look = nullptr;
+    const TiedStrand* tied = nullptr;
+    const Tail* tail = nullptr;
+};
+
+// A drawn strand's nodes: guides' nodes mixed or turned (thesis 5.1.4), hung in tails, cut, let fly away if it is one
+// that does (its number tells whether it leads a clump), out of the colliders. Light apart.
 std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, int number,
                                    const HairParams& params, const std::vector<Capsule>& colliders,
-                                   const StepInfo& info, const Body& body = {});
+                                   const StepInfo& info, const Body& body = {}, const Besides& besides = {});
 std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, int number,
                                     const HairParams& params, const std::vector<Capsule>& colliders,
-                                    const StepInfo& info, const Body& body = {});
+                                    const StepInfo& info, const Body& body = {}, const Besides& besides = {});
+
+// The part of interpolate_multi() that ties have: `node` as mixed at the strand's own root, which `shift` led to.
+void hang_in_tail(std::vector<Vec>& node, Vec shift, const Strands& guides, const Besides& besides,
+                  const StepInfo& info);
 
 // A strand drawn towards the one that leads its clump, as clump.along and the others say; and how much of
 // the leader's light it gets at each node.
@@ -132,18 +147,27 @@ struct Clumped
 };
 Clumped clump(const std::vector<Vec>& own, const std::vector<Vec>& leader, const DrawnStrand& strand, int number,
               double leaders_cut, const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
-              const Body& body = {});
+              const Body& body = {}, const StrandLook* look = nullptr);
 
-// Room that a drawn strand's node keeps from colliders, m: clearance, its layer, what is laid on it.
-double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info);
+// Room that a drawn strand's node keeps from colliders, m: clearance, its layer, what is laid on it; in a braid, that
+// of the whole braid.
+double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info,
+               const Besides& besides = {});
 
-// Parallel transport of a normal, Bergou et al. 2008, by Rodrigues' rotations; and the length up to each node.
+// Parallel transport of a normal, Bergou et al. 2008, by Rodrigues' rotations; and the length up to each node. In a
+// braid it begins anew at the ring; `cut` as in DrawnStrand.
 struct FrameNode
 {
     Vec normal;
     double length;
+    double told; // 1 + cosine of the sharpest turn that the normal has been carried through
 };
-std::vector<FrameNode> transport_frames(const std::vector<Vec>& nodes, const StepInfo& info);
+std::vector<FrameNode> transport_frames(const std::vector<Vec>& nodes, const StepInfo& info,
+                                        const Besides& besides = {}, double cut = 1.0);
+
+// The smallest rotation that takes the unit vector a to b, applied to v.
+Vec carried_over(Vec v, Vec a, Vec b);
+Vec to_world(const StepInfo& info, Vec v); // a direction or a place in the head's frame
 
 // kernels/strand_curve.h in double.
 void curve_weights(int curve, double t, double weights[4]);
@@ -157,5 +181,7 @@ struct Across // a strand, along its frame's normal and binormal
 };
 Across curl_at(int together, double begin, double distance, double pitch, double variation, int hand);
 Across frizz_at(int seed, double distance, double frequency);
+double braid_share(double behind, double pitch);
+Vec braid_offset(double behind, Vec place, double pitch, double swing, double depth, double plait, double bound);
 
 } // namespace coif::oracle

@@ -18,10 +18,8 @@ struct DirectStrands : Strands
     std::vector<double> tension;    // [strand], the largest multiplier of the last step
     std::vector<int> pace;          // [block of 16], 0 at the start, else 1 + pace of the last step
     std::vector<int> faults;        // [strand]
-    std::vector<Vec> rest_position; // [strand][node], in the head's frame
     std::vector<Vec> rest_bend;     // [strand][node], along tangent, normal and binormal
     std::vector<Vec> root_normal;   // [strand], in the head's frame
-    std::vector<int> held;          // [strand]: nodes that are prescribed, at rest_position; empty: 2, by the root
 };
 
 // All within a radius of a stretch, which for a sphere has no length.

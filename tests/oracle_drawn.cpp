@@ -12,7 +12,7 @@
 namespace coif::oracle
 {
 
-static Vec to_world(const StepInfo& info, Vec v)
+Vec to_world(const StepInfo& info, Vec v)
 {
     return {glm::dot(xyz(info.head_row0), v), glm::dot(xyz(info.head_row1), v), glm::dot(xyz(info.head_row2), v)};
 }
@@ -138,15 +138,26 @@ double light_depth(const std::vector<float>& depth, Vec point, int resolution, c
 
 // ---- drawn strands: thesis 5.1.4 -----------------------------------------------------------------------------------
 
-double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info)
+double room_at(int node, int nodes, const DrawnStrand& strand, const HairParams& params, const StepInfo& info,
+               const Besides& besides)
 {
     const double along = (node - 1.0) / (nodes - 2.0);
     const double layer = params.interpolation_layer * strand_random(strand.seed, 4) * std::min(1.0, 4.0 * along);
-    const double n = params.wave_normal_amplitude * wave_onset(along, params.wave_normal_begin);
-    const double b = params.wave_binormal_amplitude * wave_onset(along, params.wave_binormal_begin);
-    const double curl = params.curl_radius * wave_onset(along, params.curl_begin);
-    const double frizz = params.frizz_amount * (2.0 * along - along * along);
-    return info.clearance + layer + oracle::profile_at(params.wave_along, along) * (std::hypot(n, b) + curl + frizz);
+    const StrandLook* own = besides.look;
+    const double n = (own ? own->wave.x : params.wave_normal_amplitude) * wave_onset(along, params.wave_normal_begin);
+    const double b =
+        (own ? own->wave.z : params.wave_binormal_amplitude) * wave_onset(along, params.wave_binormal_begin);
+    const double curl = (own ? own->own.y : params.curl_radius) * wave_onset(along, params.curl_begin);
+    const double frizz = (own ? own->own.z : params.frizz_amount) * (2.0 * along - along * along);
+    const double room =
+        info.clearance + layer + oracle::profile_at(params.wave_along, along) * (std::hypot(n, b) + curl + frizz);
+    if (!besides.tail || !(besides.tail->axis.w > 0.0f))
+        return room;
+    // Half as deep as plaits swing with their radii, pressed flat.
+    const Tail& braid = *besides.tail;
+    const double per_node = braid.length / (nodes - 1.0 - besides.tied->ring);
+    const double behind = (1.0 + (node - 1.0) * strand.root.w - besides.tied->ring) * per_node;
+    return glm::mix(room, info.clearance + braid.depth + 0.7 * braid.plait, braid_share(behind, braid.axis.w));
 }
 
 // Along the mean of the ways out of the spheres that hold it, weighed by squared depth, until no sphere holds it.
@@ -281,7 +292,7 @@ static std::vector<Vec> flown_away(const std::vector<Vec>& node, const DrawnStra
 
 static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand& strand, int number,
                                  const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
-                                 const Body& body)
+                                 const Body& body, const Besides& besides)
 {
     const int n = int(node.size());
     std::vector<Vec> out = node;
@@ -298,13 +309,14 @@ static std::vector<Vec> finished(const std::vector<Vec>& node, const DrawnStrand
     if (flies_away(strand, number, params))
         out = flown_away(out, strand, params, info);
     for (int k = 2; k < n; ++k)
-        out[size_t(k)] = out_of_all(out[size_t(k)], colliders, body, room_at(k, n, strand, params, info), info);
+        out[size_t(k)] =
+            out_of_all(out[size_t(k)], colliders, body, room_at(k, n, strand, params, info, besides), info);
     return out;
 }
 
 Clumped clump(const std::vector<Vec>& own, const std::vector<Vec>& leader, const DrawnStrand& strand, int number,
               double leaders_cut, const HairParams& params, const std::vector<Capsule>& colliders, const StepInfo& info,
-              const Body& body)
+              const Body& body, const StrandLook* look)
 {
     const int n = int(own.size());
     Clumped clumped = {own, std::vector<double>(size_t(n), 0.0)};
@@ -340,13 +352,13 @@ Clumped clump(const std::vector<Vec>& own, const std::vector<Vec>& leader, const
     }
     for (int k = 2; k < n; ++k)
         clumped.node[size_t(k)] =
-            out_of_all(clumped.node[size_t(k)], colliders, body, room_at(k, n, strand, params, info), info);
+            out_of_all(clumped.node[size_t(k)], colliders, body, room_at(k, n, strand, params, info, {look}), info);
     return clumped;
 }
 
 std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& strand, int number,
                                    const HairParams& params, const std::vector<Capsule>& colliders,
-                                   const StepInfo& info, const Body& body)
+                                   const StepInfo& info, const Body& body, const Besides& besides)
 {
     const int n = guides.nodes;
     const int of[3] = {strand.guide0, strand.guide1, strand.guide2};
@@ -363,32 +375,44 @@ std::vector<Vec> interpolate_multi(const Strands& guides, const DrawnStrand& str
     const double sum = weight[0] + weight[1] + weight[2];
     for (double& w : weight)
         w /= sum;
-    std::vector<Vec> node(size_t(n), to_world(info, xyz(strand.root)));
+    Vec shift = to_world(info, xyz(strand.root));
+    for (int g = 0; g < 3; ++g)
+        shift -= weight[g] * guides.position[size_t(of[g] * n + 1)];
+    std::vector<Vec> node(size_t(n), shift);
     for (int k = 0; k < n; ++k)
         for (int g = 0; g < 3; ++g)
-            node[size_t(k)] +=
-                weight[g] * (guides.position[size_t(of[g] * n + k)] - guides.position[size_t(of[g] * n + 1)]);
-    return finished(node, strand, number, params, colliders, info, body);
+            node[size_t(k)] += weight[g] * guides.position[size_t(of[g] * n + k)];
+    if (besides.tied)
+        hang_in_tail(node, shift, guides, besides, info);
+    return finished(node, strand, number, params, colliders, info, body, besides);
 }
 
 std::vector<Vec> interpolate_single(const Strands& guides, const DrawnStrand& strand, int number,
                                     const HairParams& params, const std::vector<Capsule>& colliders,
-                                    const StepInfo& info, const Body& body)
+                                    const StepInfo& info, const Body& body, const Besides& besides)
 {
     const int n = guides.nodes;
     const glm::dquat turn =
         glm::angleAxis(double(strand.weights.x), Vec(0, 1, 0)) * glm::angleAxis(double(strand.weights.y), Vec(1, 0, 0));
-    const Vec center = xyz(info.head_center);
+    const Vec root = to_head(info, guides.position[size_t(strand.guide0 * n + 1)]);
     std::vector<Vec> node;
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < n; ++k) // about its root, which it has been given a place of its own for
     {
-        const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - center;
-        node.push_back(to_world(info, turn * own + center));
+        const Vec own = to_head(info, guides.position[size_t(strand.guide0 * n + k)]) - root;
+        node.push_back(to_world(info, turn * own + xyz(strand.root)));
     }
-    return finished(node, strand, number, params, colliders, info, body);
+    return finished(node, strand, number, params, colliders, info, body, besides);
 }
 
-std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInfo& info)
+Vec carried_over(Vec v, Vec a, Vec b)
+{
+    const Vec axis = glm::cross(a, b);
+    const double sine = glm::length(axis);
+    return sine > 1e-12 ? glm::angleAxis(std::atan2(sine, glm::dot(a, b)), axis / sine) * v : v;
+}
+
+std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInfo& info, const Besides& besides,
+                                        double cut)
 {
     const Vec outward = glm::normalize(p[1] - to_world(info, xyz(info.head_center)));
     Vec tangent = glm::normalize(p[1] - p[0]);
@@ -399,91 +423,27 @@ std::vector<FrameNode> transport_frames(const std::vector<Vec>& p, const StepInf
         normal = side - tangent * glm::dot(side, tangent);
     }
     normal = glm::normalize(normal);
-    std::vector<FrameNode> frames = {{normal, 0.0}};
-    double length = 0.0;
+    // Where a braid's ring is on the strand as it is cut.
+    const bool braided = besides.tail && besides.tail->axis.w > 0.0f;
+    const double ring = braided ? 1.0 + (besides.tied->ring - 1.0) / cut : double(p.size());
+    std::vector<FrameNode> frames = {{normal, 0.0, 2.0}};
+    double length = 0.0, told = 2.0;
     for (size_t k = 1; k < p.size(); ++k)
     {
-        const Vec next = glm::normalize(p[k] - p[k - 1]), axis = glm::cross(tangent, next);
-        const double sine = glm::length(axis), cosine = glm::dot(tangent, next);
-        if (sine > 1e-12)
-            normal = glm::angleAxis(std::atan2(sine, cosine), axis / sine) * normal;
+        const Vec next = glm::normalize(p[k] - p[k - 1]);
+        if (double(k) > ring && double(k) - 1.0 <= ring)
+        {
+            normal = to_world(info, xyz(besides.tail->side));
+            tangent = to_world(info, xyz(besides.tail->axis));
+            told = 2.0;
+        }
+        told = std::min(told, 1.0 + glm::dot(tangent, next));
+        normal = carried_over(normal, tangent, next);
         tangent = next;
         length += k > 1 ? glm::distance(p[k], p[k - 1]) : 0.0;
-        frames.push_back({normal, length});
+        frames.push_back({normal, length, told});
     }
     return frames;
-}
-
-// ---- curves and waves
-// ------------------------------------------------------------------------------------------------
-
-void curve_weights(int curve, double t, double weights[4])
-{
-    // Rows: the factors of 1, t, t^2, t^3 for each of the four nodes (Catmull and Rom 1974; Bourke 1999 for "cubic").
-    static const double catmull_rom[4][4] = {
-        {0, -0.5, 1, -0.5}, {1, 0, -2.5, 1.5}, {0, 0.5, 2, -1.5}, {0, 0, -0.5, 0.5}};
-    static const double cubic[4][4] = {{0, -1, 2, -1}, {1, 0, -2, 1}, {0, 1, 1, -1}, {0, 0, -1, 1}};
-    const double s = curve == 1 ? 0.5 * (1.0 - std::cos(std::numbers::pi * t)) : t;
-    const double straight[4] = {0.0, 1.0 - s, s, 0.0};
-    for (int i = 0; i < 4; ++i)
-    {
-        const double* c = curve == 2 ? cubic[i] : catmull_rom[i];
-        weights[i] = curve < 2 ? straight[i] : c[0] + c[1] * t + c[2] * t * t + c[3] * t * t * t;
-    }
-}
-
-double wave_onset(double along, double begin)
-{
-    const double t = std::clamp((along - begin) / 0.25, 0.0, 1.0);
-    return 3.0 * t * t - 2.0 * t * t * t;
-}
-
-double strand_random(int seed, int purpose)
-{
-    // O'Neill 2014: a linear congruential state, and the RXS-M-XS output of 32 bits, of which 24 are used.
-    const uint32_t state =
-        uint32_t(uint64_t(uint32_t(seed)) * 747796405u + uint64_t(uint32_t(purpose)) * 2891336453u + 277803737u);
-    const uint32_t word = (state ^ (state >> (4 + state / (1u << 28)))) * 277803737u;
-    return double((word ^ (word >> 22)) >> 8) / 16777216.0;
-}
-
-double wave_place(int seed, double distance, double frequency, double randomness)
-{
-    const double shift = randomness * strand_random(seed, 2);
-    const double table = randomness > 0.0 ? std::floor(32.0 * strand_random(seed, 3)) : 0.0;
-    return (distance * frequency + shift + table) / 32.0;
-}
-
-double profile_at(const float4& profile, double along)
-{
-    const double of[4] = {profile.x, profile.y, profile.z, profile.w};
-    const int piece = std::clamp(int(3.0 * along), 0, 2);
-    const double t = 3.0 * along - piece;
-    return of[piece] * (1.0 - t) + of[piece + 1] * t;
-}
-
-Across curl_at(int together, double begin, double distance, double pitch, double variation, int hand)
-{
-    const double less = variation * strand_random(together, 7);
-    const bool left = hand == 2 ? strand_random(together, 8) < 0.5 : hand == 1;
-    const double angle =
-        2.0 * std::numbers::pi * (begin + (left ? -1.0 : 1.0) * distance / (pitch * (1.0 - less / 2.0)));
-    return {(1.0 - less) * std::cos(angle), (1.0 - less) * std::sin(angle)};
-}
-
-Across frizz_at(int seed, double distance, double frequency)
-{
-    const double most = strand_random(seed, 9), place = distance * frequency + strand_random(seed, 10);
-    const auto noise = [&](int side, double at)
-    {
-        const int cell = int(std::floor(at));
-        const double t = at - cell, s = 3.0 * t * t - 2.0 * t * t * t;
-        return 2.0 * ((1.0 - s) * strand_random(seed, 256 + 2 * cell + side) +
-                      s * strand_random(seed, 258 + 2 * cell + side)) -
-               1.0;
-    };
-    const double own = (0.2 + 0.8 * most * most) / std::sqrt(2.0);
-    return {own * noise(0, place), own * noise(1, place + 0.5)};
 }
 
 } // namespace coif::oracle

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
 #include <set>
@@ -107,7 +108,7 @@ TEST(Interpolation, WithoutCopiesEachNodeIsTheBarycentricMixOfItsGuides)
     EXPECT_LE(off_scalp, 5e-7);
 }
 
-TEST(Interpolation, WithCopiesOnlyEachIsItsGuideTurnedAboutTheHeadsCentre)
+TEST(Interpolation, WithCopiesOnlyEachIsItsGuideTurnedAtARootOfItsOwn)
 {
     Hair hair(style_of({"interpolation.ratio=1", "interpolation.layer=0", "strand.length_variation=0"}));
     hair.simulation.play(find_motion("turn"));
@@ -117,22 +118,23 @@ TEST(Interpolation, WithCopiesOnlyEachIsItsGuideTurnedAboutTheHeadsCentre)
     hair.simulation.solver().set_body({});
     hair.read_back();
     ASSERT_EQ(hair.groom().drawn_multi, 0);
-    const Vec center = hair.simulation.solver().head().turn * Vec(hair.groom().center);
+    const glm::dquat head = hair.simulation.solver().head().turn;
     double worst = 0.0, widest = 0.0;
     std::set<int> used;
     for (size_t s = 0; s < 500; ++s)
     {
-        const int guide = hair.groom().drawn[s].guide0;
-        used.insert(guide);
+        const DrawnStrand& strand = hair.groom().drawn[s];
+        used.insert(strand.guide0);
+        const glm::dquat turn = glm::angleAxis(double(strand.weights.x), Vec(0, 1, 0)) *
+                                glm::angleAxis(double(strand.weights.y), Vec(1, 0, 0));
+        const Vec root = head * Vec(oracle::xyz(strand.root));
         for (int k = 0; k < hair.nodes; ++k)
         {
-            const Vec copy = hair.node(s, k) - center, own = hair.guide(guide, k) - center;
-            worst = std::max(worst, std::abs(glm::length(copy) - glm::length(own)));
-            // Shape: the angle to the root is kept, too.
-            worst = std::max(worst, std::abs(glm::distance(hair.node(s, k), hair.node(s, 1)) -
-                                             glm::distance(hair.guide(guide, k), hair.guide(guide, 1))));
-            widest = std::max(widest, glm::distance(copy, own) / glm::length(own));
+            const Vec from_root = hair.guide(strand.guide0, k) - hair.guide(strand.guide0, 1);
+            const Vec expected = root + head * (turn * (glm::conjugate(head) * from_root));
+            worst = std::max(worst, glm::distance(hair.node(s, k), expected));
         }
+        widest = std::max(widest, glm::angle(turn));
     }
     EXPECT_LE(worst, 1e-6); // three rotations in floats
     EXPECT_GT(widest, 0.1); // spread is 9 degrees about two axes

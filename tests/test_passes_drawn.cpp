@@ -25,6 +25,9 @@ struct Case
     bool shadow, bodies;
     void (*change)(HairParams&);
     bool body = false;
+    bool varied = false; // each strand has a look of its own
+    int tails = 0;       // that most mixed strands hang in
+    bool braids = false; // every second tail is one
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -46,6 +49,22 @@ class DrawnPasses : public testing::TestWithParam<Case>
         {
             groom.drawn[s].leader = int(s - s % 10);
             groom.drawn[s].weights.w = s % 10 ? float(places.in(-0.03, 0.03)) : 0.0f;
+        }
+        for (size_t s = 0; s < groom.drawn.size() && c.varied; ++s)
+        {
+            const auto up_to = [&](double most) { return float(places.in(0.0, most)); };
+            groom.looks.push_back({});
+            groom.looks.back().wave = F4(up_to(0.02), 30.0f, up_to(0.01), 30.0f);
+            groom.looks.back().own = F4(float(groom.drawn[s].seed), up_to(0.006), up_to(0.004), 0.0f);
+        }
+        for (int i = 0; i < c.tails; ++i)
+            groom.tails.push_back(some_tail(places, i, c.braids && i % 2 == 1));
+        for (int s = 0; s < groom.drawn_multi && c.tails > 0; ++s)
+        {
+            // Between two nodes: behind one that lay in the ring itself the way from there to it would be no way.
+            const float ring = float(2 + places.below(c.nodes - 5)) + float(places.in(0.1, 0.9));
+            groom.tied.push_back({F4(float(places.in(-0.7, 0.7)), float(places.in(-0.7, 0.7)), 0.0f, 0.0f),
+                                  s % 7 == 3 ? 0.0f : ring, s % c.tails, 0, 0});
         }
         const Pose head = {random.vector(3.0), glm::angleAxis(1.1, random.direction()), {}};
         solver = std::make_unique<Solver>(device, params, groom, head);
@@ -91,6 +110,40 @@ class DrawnPasses : public testing::TestWithParam<Case>
         frame = read<float4>(device, buffers.at("drawn_frame"), nodes);
     }
 
+    Tail some_tail(Random& places, int number, bool braid) const
+    {
+        const Case& c = GetParam();
+        const glm::dvec3 axis = places.direction(), side = glm::normalize(glm::cross(axis, places.direction()));
+        Tail tail = {};
+        tail.axis = F4(float(axis.x), float(axis.y), float(axis.z), braid ? 0.06f : 0.0f);
+        tail.side = F4(float(side.x), float(side.y), float(side.z), 0.012f);
+        tail.depth = 0.006f;
+        tail.plait = 0.008f;
+        tail.bound = 0.1f;
+        tail.length = float(places.in(0.1, 0.2));
+        tail.ring = float(2 + number % (c.nodes - 5)) + 0.3f;
+        tail.radius = 0.01f;
+        tail.fullest = 0.03f;
+        tail.together = float(places.in(0.5, 1.0));
+        tail.guide = places.below(c.guides);
+        return tail;
+    }
+
+    oracle::Besides besides(size_t strand) const
+    {
+        const bool tied = strand < groom.tied.size() && groom.tied[strand].ring > 0.0f;
+        return {groom.looks.empty() ? nullptr : &groom.looks[strand], tied ? &groom.tied[strand] : nullptr,
+                tied ? &groom.tails[size_t(groom.tied[strand].tail)] : nullptr};
+    }
+
+    // A strand's nodes before clumps, by the twin.
+    std::vector<oracle::Vec> made(size_t strand) const
+    {
+        const auto make = int(strand) < groom.drawn_multi ? oracle::interpolate_multi : oracle::interpolate_single;
+        return make(guides, groom.drawn[strand], int(strand), read_params, colliders, solver->info(), body,
+                    besides(strand));
+    }
+
     glm::dvec3 node(size_t strand, int k) const
     {
         const float4 p = position[strand * size_t(groom.nodes) + size_t(k)];
@@ -113,17 +166,14 @@ TEST_P(DrawnPasses, NodesLieWhereTheTwinPutsThem)
     std::vector<double> errors;
     std::vector<std::vector<oracle::Vec>> expected;
     for (size_t s = 0; s < groom.drawn.size(); ++s)
-    {
-        const auto make = int(s) < groom.drawn_multi ? oracle::interpolate_multi : oracle::interpolate_single;
-        expected.push_back(make(guides, groom.drawn[s], int(s), read_params, colliders, solver->info(), body));
-    }
+        expected.push_back(made(s));
     for (size_t s = 0; s < groom.drawn.size(); ++s)
     {
         const DrawnStrand& own = groom.drawn[s];
         const size_t leader = size_t(own.leader);
         const std::vector<oracle::Vec> at =
             has_clumps(params) ? oracle::clump(expected[s], expected[leader], own, int(s), groom.drawn[leader].root.w,
-                                               read_params, colliders, solver->info(), body)
+                                               read_params, colliders, solver->info(), body, besides(s).look)
                                      .node
                                : expected[s];
         for (int k = 0; k < groom.nodes; ++k)
@@ -175,19 +225,14 @@ TEST_P(DrawnPasses, InAClumpEachGetsAsMuchOfItsLeadersLightAsItIsDrawnToIt)
     const StepInfo& info = solver->info();
     const std::vector<float> depth =
         read<float>(device, solver->buffers().at("depth"), size_t(c.resolution * c.resolution * c.resolution));
-    const auto made = [&](int s)
-    {
-        const auto make = s < groom.drawn_multi ? oracle::interpolate_multi : oracle::interpolate_single;
-        return make(guides, groom.drawn[size_t(s)], s, read_params, colliders, info, body);
-    };
     const int n = groom.nodes;
     std::vector<double> errors;
     for (int s = 0; s < int(groom.drawn.size()); ++s)
     {
         const DrawnStrand &own = groom.drawn[size_t(s)], &leads = groom.drawn[size_t(own.leader)];
-        const std::vector<oracle::Vec> at = made(s), leader = made(own.leader);
-        const oracle::Clumped clumped =
-            oracle::clump(at, leader, own, s, leads.root.w, read_params, colliders, info, body);
+        const std::vector<oracle::Vec> at = made(size_t(s)), leader = made(size_t(own.leader));
+        const oracle::Clumped clumped = oracle::clump(at, leader, own, s, leads.root.w, read_params, colliders, info,
+                                                      body, besides(size_t(s)).look);
         const auto light_of = [&](int k) { return double(position[size_t(own.leader * n + k)].w); };
         for (int k = 2; k < n; ++k)
         {
@@ -218,26 +263,18 @@ TEST_P(DrawnPasses, FramesAreCarriedAsTheTwinCarriesThem)
         std::vector<oracle::Vec> nodes;
         for (int k = 0; k < groom.nodes; ++k)
             nodes.push_back(node(s, k));
-        const std::vector<oracle::FrameNode> expected = oracle::transport_frames(nodes, solver->info());
+        const std::vector<oracle::FrameNode> expected =
+            oracle::transport_frames(nodes, solver->info(), besides(s), groom.drawn[s].root.w);
         const double from = has_clumps(params) ? double(groom.drawn[s].weights.w) : 0.0;
-        double sharpest = 2.0; // of 1 + cosine
         for (int k = 0; k < groom.nodes; ++k)
         {
-            if (k > 1)
-            {
-                const double a = glm::distance(nodes[size_t(k)], nodes[size_t(k - 1)]);
-                const double b = glm::distance(nodes[size_t(k - 1)], nodes[size_t(k - 2)]);
-                if (std::min(a, b) < 1e-4)
-                    break; // pushed onto one another: the direction between them is made of rounding
-                sharpest = std::min(sharpest, 1.0 + glm::dot(nodes[size_t(k)] - nodes[size_t(k - 1)],
-                                                             nodes[size_t(k - 1)] - nodes[size_t(k - 2)]) /
-                                                        (a * b));
-                if (sharpest < 0.01)
-                    break; // turns back on itself: about which axis is not well told
-            }
+            if (k > 0 && glm::distance(nodes[size_t(k)], nodes[size_t(k - 1)]) < 1e-4)
+                break; // pushed onto one another: the direction between them is made of rounding
+            if (expected[size_t(k)].told < 0.01)
+                break; // turns back on itself: about which axis is not well told
             const float4 f = frame[s * size_t(groom.nodes) + size_t(k)];
             const glm::dvec3 normal(f.x, f.y, f.z);
-            worst = std::max(worst, glm::distance(normal, expected[size_t(k)].normal) * sharpest);
+            worst = std::max(worst, glm::distance(normal, expected[size_t(k)].normal) * expected[size_t(k)].told);
             worst_unit = std::max(worst_unit, std::abs(glm::length(normal) - 1.0));
             worst_length = std::max(worst_length, std::abs(f.w - from - expected[size_t(k)].length));
         }
@@ -277,26 +314,36 @@ void flying_clumps(HairParams& p)
 void from_below(HairParams& p) { p.look_light_direction = F4(0.2f, -0.3f, -0.9f, 0.0f); }
 void from_the_side(HairParams& p) { p.look_light_direction = F4(1.0f, 0.0f, 0.1f, 0.0f); }
 
-INSTANTIATE_TEST_SUITE_P(All, DrawnPasses,
-                         testing::Values(Case{"usual", 16, 16, 64, 248, 1000, true, true, nullptr},
-                                         Case{"wavy", 16, 16, 20, 17, 500, true, true, waves},
-                                         Case{"wavy_8_wide", 8, 16, 20, 17, 500, true, true, waves},
-                                         Case{"one_wide", 1, 5, 20, 20, 200, true, true, from_below},
-                                         Case{"free_and_unshaded", 16, 33, 8, 17, 101, false, false, nullptr},
-                                         Case{"of_33", 8, 33, 64, 40, 300, true, true, from_the_side},
-                                         Case{"of_3", 16, 3, 8, 1, 17, true, true, waves},
-                                         Case{"of_5_unshaded", 16, 5, 20, 30, 200, false, true, nullptr},
-                                         Case{"on_a_grid", 16, 16, 64, 100, 500, true, false, nullptr, true},
-                                         Case{"on_a_grid_8_wide", 8, 16, 20, 40, 300, true, true, waves, true},
-                                         Case{"on_a_grid_1_wide", 1, 9, 20, 40, 200, false, true, nullptr, true},
-                                         Case{"clumps", 16, 16, 20, 40, 500, true, true, clumps},
-                                         Case{"clumps_8_wide", 8, 16, 20, 40, 501, false, false, clumps, true},
-                                         Case{"clumps_1_wide", 1, 9, 20, 40, 200, true, true, clumps},
-                                         Case{"flying", 16, 16, 20, 40, 500, true, true, flying},
-                                         Case{"flying_8_wide", 8, 33, 20, 40, 301, true, true, flying},
-                                         Case{"flying_1_wide", 1, 16, 20, 40, 200, false, false, flying},
-                                         Case{"flying_clumps", 16, 16, 20, 40, 500, true, true, flying_clumps, true}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, DrawnPasses,
+    testing::Values(Case{"usual", 16, 16, 64, 248, 1000, true, true, nullptr},
+                    Case{"wavy", 16, 16, 20, 17, 500, true, true, waves},
+                    Case{"wavy_8_wide", 8, 16, 20, 17, 500, true, true, waves},
+                    Case{"one_wide", 1, 5, 20, 20, 200, true, true, from_below},
+                    Case{"free_and_unshaded", 16, 33, 8, 17, 101, false, false, nullptr},
+                    Case{"of_33", 8, 33, 64, 40, 300, true, true, from_the_side},
+                    Case{"of_3", 16, 3, 8, 1, 17, true, true, waves},
+                    Case{"of_5_unshaded", 16, 5, 20, 30, 200, false, true, nullptr},
+                    Case{"on_a_grid", 16, 16, 64, 100, 500, true, false, nullptr, true},
+                    Case{"on_a_grid_8_wide", 8, 16, 20, 40, 300, true, true, waves, true},
+                    Case{"on_a_grid_1_wide", 1, 9, 20, 40, 200, false, true, nullptr, true},
+                    Case{"clumps", 16, 16, 20, 40, 500, true, true, clumps},
+                    Case{"clumps_8_wide", 8, 16, 20, 40, 501, false, false, clumps, true},
+                    Case{"clumps_1_wide", 1, 9, 20, 40, 200, true, true, clumps},
+                    Case{"flying", 16, 16, 20, 40, 500, true, true, flying},
+                    Case{"flying_8_wide", 8, 33, 20, 40, 301, true, true, flying},
+                    Case{"flying_1_wide", 1, 16, 20, 40, 200, false, false, flying},
+                    Case{"flying_clumps", 16, 16, 20, 40, 500, true, true, flying_clumps, true},
+                    Case{"varied", 16, 16, 20, 40, 500, true, false, waves, true, true},
+                    Case{"varied_8_wide", 8, 16, 20, 40, 301, false, false, clumps, true, true},
+                    Case{"varied_1_wide", 1, 9, 20, 40, 200, true, true, clumps, false, true},
+                    Case{"tails", 16, 16, 20, 40, 500, true, false, nullptr, false, false, 3},
+                    Case{"tails_8_wide", 8, 22, 20, 40, 301, true, false, waves, true, true, 3},
+                    Case{"tails_1_wide", 1, 9, 20, 40, 200, false, true, flying, false, false, 2},
+                    Case{"braids", 16, 22, 20, 40, 500, true, false, nullptr, true, false, 4, true},
+                    Case{"braids_8_wide", 8, 16, 20, 40, 301, true, false, clumps, false, false, 4, true},
+                    Case{"braids_1_wide", 1, 16, 20, 40, 200, true, true, waves, true, true, 2, true}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace
 } // namespace coif

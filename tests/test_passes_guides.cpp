@@ -25,6 +25,7 @@ struct Case
     bool wind, repulsion, density, teleport;
     void (*change)(HairParams&);
     bool body = false;
+    bool held = false; // some strands are held by more nodes than the root's two, as ties do
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -36,6 +37,10 @@ class SimulatePass : public testing::TestWithParam<Case>
         const Case& c = GetParam();
         params = pass_params(c.nodes, c.resolution, c.wind, c.repulsion, c.change);
         groom = random_groom(random, c.strands, c.nodes, 10);
+        for (int s = 0; s < groom.blocks * LANES && c.held; ++s)
+            groom.held.push_back(s % 3 || s >= c.strands ? 2 : 2 + s / 3 % (c.nodes - 4));
+        if (c.held)
+            state.held.assign(groom.held.begin(), groom.held.begin() + c.strands);
 
         if (c.body)
         {
@@ -54,12 +59,20 @@ class SimulatePass : public testing::TestWithParam<Case>
         {
             const double rest = groom.segment_length[size_t(s)];
             state.segment_length.push_back(rest);
-            glm::dvec3 at = before.turn * (state.root_position[size_t(s)] - rest * state.root_direction[size_t(s)]);
+            const glm::dvec3 direction = state.root_direction[size_t(s)];
+            glm::dvec3 at = before.turn * (state.root_position[size_t(s)] - rest * direction);
+            glm::dvec3 at_rest = state.root_position[size_t(s)] - rest * direction;
             for (int k = 0; k < c.nodes; ++k)
             {
+                const bool held = k > 1 && k < held_nodes(groom, s);
+                if (held)
+                    at = before.turn * at_rest;
                 state.position.push_back(rounded(at));
                 state.velocity.push_back(rounded(random.vector(1.0)));
-                at += rest * (before.turn * state.root_direction[size_t(s)] + 0.35 * random.vector(1.0));
+                at += rest * (before.turn * direction + 0.35 * random.vector(1.0));
+                state.rest_position.push_back(rounded(at_rest));
+                if (c.held)
+                    at_rest += rest * (k > 0 ? glm::normalize(direction + 0.5 * random.vector(1.0)) : direction);
             }
         }
         state.resets.assign(size_t(c.strands), 0);
@@ -84,6 +97,8 @@ class SimulatePass : public testing::TestWithParam<Case>
                 {"root_position", filled(device, groom.root_position)},
                 {"root_direction", filled(device, groom.root_direction)},
                 {"segment_length", filled(device, groom.segment_length)},
+                {"rest_position", filled(device, to_blocks(state.rest_position, c.strands, c.nodes))},
+                {"held_nodes", filled(device, c.held ? groom.held : std::vector<int>(1))},
                 {"gradient", filled(device, axis_by_axis(gradient))},
                 {"density", filled(device, std::vector<int>(gradient.size(), 0))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
@@ -98,8 +113,8 @@ class SimulatePass : public testing::TestWithParam<Case>
     {
         const Case& c = GetParam();
         const std::string features =
-            fmt::format("{}{}{}{}", c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "",
-                        c.density ? "-D DENSITY " : "", c.body ? "-D BODY_GRID " : "");
+            fmt::format("{}{}{}{}{}", c.wind ? "-D WIND " : "", c.repulsion ? "-D REPULSION " : "",
+                        c.density ? "-D DENSITY " : "", c.body ? "-D BODY_GRID " : "", c.held ? "-D HELD " : "");
         Kernel kernel = load_kernel(device, "simulate_pbd", pass_options(device, c.nodes, c.resolution, features));
         run(device, kernel, buffers, cl::NDRange(size_t(groom.blocks) * 16 / size_t(device.width)));
     }
@@ -268,7 +283,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"a_leap", 16, 16, 64, 40, true, true, true, true, brush},
                     Case{"on_a_grid", 16, 16, 64, 100, true, true, true, false, nullptr, true},
                     Case{"on_a_grid_8_wide", 8, 16, 20, 33, false, false, true, false, brush, true},
-                    Case{"on_a_grid_1_wide", 1, 9, 20, 17, true, false, false, true, limp, true}),
+                    Case{"on_a_grid_1_wide", 1, 9, 20, 17, true, false, false, true, limp, true},
+                    Case{"held", 16, 16, 20, 235, true, true, true, false, brush, true, true},
+                    Case{"held_8_wide", 8, 12, 20, 101, false, false, true, false, nullptr, false, true},
+                    Case{"held_1_wide", 1, 9, 20, 50, true, false, false, true, nullptr, true, true}),
     [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace

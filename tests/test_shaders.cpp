@@ -97,11 +97,14 @@ TEST(Shaders, AFailedReloadKeepsTheOldPrograms)
 
 // Inputs of one sample, all of them exact in floats, so that three languages compute from the same numbers.
 constexpr int kSamples = 1025;
-constexpr int kValues = 25; // four curves' weights, onset, random number, place, profile, curl, frizz and its onset
+// Four curves' weights, onset, random number, place, profile, curl, frizz and its onset, a braid's share and offset.
+constexpr int kValues = 29;
 double t_of(int i) { return i / 1024.0; }
 double begin_of(int i) { return i % 4 * 0.25; }
 double randomness_of(int i) { return i % 5 * 0.25; }
 int seed_of(int i) { return i * 16411 - 300; }
+// Of a braid: in the plait's radii, and its phase.
+oracle::Vec place_of(int i) { return {i % 4 * 0.25 - 0.375, i % 5 * 0.25 - 0.5, i % 3 * 2.0}; }
 constexpr float4 kProfile = F4(0.25f, 1.5f, 0.0f, 0.75f);
 
 std::vector<double> in_doubles()
@@ -123,6 +126,10 @@ std::vector<double> in_doubles()
         const oracle::Across frizz = oracle::frizz_at(seed_of(i), t_of(i) - 0.125, 16.0);
         values.insert(values.end(), {curl.normal, curl.binormal, frizz.normal, frizz.binormal});
         values.push_back(t_of(i) * (2.0 - t_of(i)));
+        values.push_back(oracle::braid_share(0.5 * t_of(i), 0.125));
+        const oracle::Vec by =
+            oracle::braid_offset(0.5 * t_of(i), place_of(i), 0.125, 0.015625, 0.0078125, 0.0078125, 0.375);
+        values.insert(values.end(), {by.x, by.y, by.z});
     }
     return values;
 }
@@ -153,7 +160,7 @@ TEST(Curves, OpenClAgreesWithDoubles)
 kernel void sample_curves(global float* values)
 {
     const int i = get_global_id(0);
-    global float* v = values + i * 25;
+    global float* v = values + i * 29;
     const float t = (float)i / 1024.0f;
     for (int curve = 0; curve < 4; ++curve)
         vstore4(curve_weights(curve, t), curve, v);
@@ -164,6 +171,10 @@ kernel void sample_curves(global float* values)
     vstore2(curl_at(i * 16411 - 300, (float)(i % 4) * 0.25f, t, 0.25f, (float)(i % 5) * 0.25f, i % 3).xy, 10, v);
     vstore2(frizz_at(i * 16411 - 300, t - 0.125f, 16.0f).xy, 11, v);
     v[24] = frizz_onset(t);
+    v[25] = braid_share(0.5f * t, 0.125f);
+    const float4 place = (float4)((float)(i % 4) * 0.25f - 0.375f, (float)(i % 5) * 0.25f - 0.5f, (float)(i % 3) * 2.0f,
+                                  0.0f);
+    vstore3(braid_offset(0.5f * t, place, 0.125f, 0.015625f, 0.0078125f, 0.0078125f, 0.375f).xyz, 0, v + 26);
 }
 )");
     Device device = test_device();
@@ -178,24 +189,28 @@ TEST(Curves, GlslAgreesWithDoubles)
 {
     const Window window(16, 16, Window::HIDDEN);
     // A vertex shader whose outputs are kept: transform feedback.
-    std::string source = "#version 150\n" +
-                         load_source(data_folder() / "shaders" / "curve.glsl", data_folder() / "kernels") +
-                         "out vec4 linear, cosine, cubic, catmull_rom;\nout vec4 rest, form;\nout float onset;\n"
-                         "void main() {\n"
-                         "    int i = gl_VertexID;\n"
-                         "    float t = float(i) / 1024.0;\n"
-                         "    linear = curve_weights(CURVE_LINEAR, t);\n"
-                         "    cosine = curve_weights(CURVE_COSINE, t);\n"
-                         "    cubic = curve_weights(CURVE_CUBIC, t);\n"
-                         "    catmull_rom = curve_weights(CURVE_CATMULL_ROM, t);\n"
-                         "    rest = vec4(wave_onset(t, float(i % 4) * 0.25), strand_random(i * 16411 - 300, i % 7),\n"
-                         "                wave_place(i * 16411 - 300, t, 30.0, float(i % 5) * 0.25),\n"
-                         "                profile_at(vec4(0.25, 1.5, 0.0, 0.75), t));\n"
-                         "    form = vec4(curl_at(i * 16411 - 300, float(i % 4) * 0.25, t, 0.25,\n"
-                         "                        float(i % 5) * 0.25, i % 3).xy,\n"
-                         "                frizz_at(i * 16411 - 300, t - 0.125, 16.0).xy);\n"
-                         "    onset = frizz_onset(t);\n"
-                         "    gl_Position = vec4(0.0);\n}\n";
+    std::string source =
+        "#version 150\n" + load_source(data_folder() / "shaders" / "curve.glsl", data_folder() / "kernels") +
+        "out vec4 linear, cosine, cubic, catmull_rom;\nout vec4 rest, form, braid;\nout float onset;\n"
+        "void main() {\n"
+        "    int i = gl_VertexID;\n"
+        "    float t = float(i) / 1024.0;\n"
+        "    linear = curve_weights(CURVE_LINEAR, t);\n"
+        "    cosine = curve_weights(CURVE_COSINE, t);\n"
+        "    cubic = curve_weights(CURVE_CUBIC, t);\n"
+        "    catmull_rom = curve_weights(CURVE_CATMULL_ROM, t);\n"
+        "    rest = vec4(wave_onset(t, float(i % 4) * 0.25), strand_random(i * 16411 - 300, i % 7),\n"
+        "                wave_place(i * 16411 - 300, t, 30.0, float(i % 5) * 0.25),\n"
+        "                profile_at(vec4(0.25, 1.5, 0.0, 0.75), t));\n"
+        "    form = vec4(curl_at(i * 16411 - 300, float(i % 4) * 0.25, t, 0.25,\n"
+        "                        float(i % 5) * 0.25, i % 3).xy,\n"
+        "                frizz_at(i * 16411 - 300, t - 0.125, 16.0).xy);\n"
+        "    onset = frizz_onset(t);\n"
+        "    vec4 place = vec4(float(i % 4) * 0.25 - 0.375, float(i % 5) * 0.25 - 0.5,\n"
+        "                      float(i % 3) * 2.0, 0.0);\n"
+        "    braid = vec4(braid_share(0.5 * t, 0.125), braid_offset(0.5 * t, place, 0.125, 0.015625,\n"
+        "                                                           0.0078125, 0.0078125, 0.375).xyz);\n"
+        "    gl_Position = vec4(0.0);\n}\n";
     const char* text = source.c_str();
     const GLuint shader = glCreateShader(GL_VERTEX_SHADER), program = glCreateProgram();
     glShaderSource(shader, 1, &text, nullptr);
@@ -206,8 +221,8 @@ TEST(Curves, GlslAgreesWithDoubles)
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     ASSERT_TRUE(ok) << log;
     glAttachShader(program, shader);
-    const char* const outputs[] = {"linear", "cosine", "cubic", "catmull_rom", "rest", "form", "onset"};
-    glTransformFeedbackVaryings(program, 7, outputs, GL_INTERLEAVED_ATTRIBS);
+    const char* const outputs[] = {"linear", "cosine", "cubic", "catmull_rom", "rest", "form", "onset", "braid"};
+    glTransformFeedbackVaryings(program, 8, outputs, GL_INTERLEAVED_ATTRIBS);
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     ASSERT_TRUE(ok);

@@ -3,6 +3,7 @@
 #include "sim/health.h"
 #include "sim/simulation.h"
 #include "tests/on_device.h"
+#include "tests/oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,24 @@ TEST_P(TiedMotion, MovesBehindTheRingOnlyAndStaysWhole)
 INSTANTIATE_TEST_SUITE_P(All, TiedMotion, testing::Values("still", "shake", "drag", "teleport", "nod"),
                          [](const auto& test) { return std::string(test.param); });
 
+// How much longer than at rest the longest segment is whose outer node the head does not touch, as a share.
+double stretch_in_the_air(const Simulation& simulation)
+{
+    const Solver& solver = simulation.solver();
+    const Groom& groom = solver.groom();
+    const oracle::Body head = oracle::body_of(*solver.body().grid);
+    const std::vector<glm::dvec3> x = nodes_in(test_device(), solver.buffers().at("position"), groom);
+    double most = 0.0;
+    for (int g = 0; g < groom.guides; ++g)
+        for (int k = 2; k < groom.nodes; ++k)
+        {
+            const size_t i = size_t(g * groom.nodes + k);
+            if (oracle::plane_at(head, x[i], solver.info()).distance > 5e-4)
+                most = std::max(most, glm::distance(x[i], x[i - 1]) / double(groom.segment_length[size_t(g)]) - 1.0);
+        }
+    return most;
+}
+
 TEST(TiedHair, IsHeldByTheSweepsToo)
 {
     Hairstyle style = tied_style();
@@ -103,14 +122,19 @@ TEST(TiedHair, IsHeldByTheSweepsToo)
     const std::vector<glm::dvec3> before = in_head(simulation);
     simulation.play(find_motion("shake"));
     for (int i = 0; i < 60; ++i)
+    {
         simulation.step(simulation.hand());
-    EXPECT_LE(held_apart(simulation, before), 2e-6);
-    const Health health = measure_health(simulation.solver(), simulation.params(), false);
-    EXPECT_TRUE(health.finite);
-    EXPECT_LE(health.stretch_max, 0.02); // what bodies leave of the last walk
+        if (i % 5)
+            continue;
+        EXPECT_LE(held_apart(simulation, before), 2e-6);
+        // As far as the closing walk lets a segment be, wherever the head has not the last word.
+        EXPECT_LE(stretch_in_the_air(simulation), 0.005 + 1e-5) << "step " << i;
+    }
+    EXPECT_TRUE(measure_health(simulation.solver(), simulation.params(), false).finite);
 }
 
-// How far every drawn strand passes the middle of the ring, m.
+// How far the curve through the nodes of every drawn strand passes the middle of the ring, m. Chords cut the bend that
+// hair has before a ring by up to 1.2 mm.
 double passes_by(const Simulation& simulation)
 {
     const Groom& groom = simulation.solver().groom();
@@ -123,16 +147,15 @@ double passes_by(const Simulation& simulation)
     {
         double nearest = INFINITY;
         for (int k = 2; k < groom.nodes; ++k)
-        {
-            const auto at = [&](int i)
+            for (int part = 0; part <= 32; ++part)
             {
-                const float4 q = p[s * size_t(groom.nodes) + size_t(i)];
-                return glm::dvec3(q.x, q.y, q.z);
-            };
-            const glm::dvec3 a = at(k - 1), d = at(k) - a;
-            const double share = std::clamp(glm::dot(middle - a, d) / std::max(glm::dot(d, d), 1e-12), 0.0, 1.0);
-            nearest = std::min(nearest, glm::distance(middle, a + share * d));
-        }
+                double w[4];
+                oracle::curve_weights(3, part / 32.0, w);
+                glm::dvec3 at(0.0);
+                for (int j = 0; j < 4; ++j)
+                    at += w[j] * oracle::xyz(p[s * size_t(groom.nodes) + size_t(std::min(k - 2 + j, groom.nodes - 1))]);
+                nearest = std::min(nearest, glm::distance(middle, at));
+            }
         farthest = std::max(farthest, nearest);
     }
     return farthest;
@@ -148,7 +171,8 @@ TEST(TiedHair, IsDrawnThroughTheRing)
         for (int i = 0; i < 40; ++i)
             simulation.step(simulation.hand());
         simulation.solver().draw();
-        EXPECT_LE(passes_by(simulation), double(style.host.ties[0].radius) + 0.001) << braid;
+        // At rest it is all within (11.8 of 12 mm); a shake lets what lies outermost bulge by 0.25 mm.
+        EXPECT_LE(passes_by(simulation), double(style.host.ties[0].radius) + 0.0003) << braid;
     }
 }
 
@@ -199,7 +223,7 @@ TEST(TiedHair, FollowsARingThatIsMoved)
         simulation.step(simulation.hand());
     }
     simulation.solver().draw();
-    EXPECT_LE(passes_by(simulation), double(style.host.ties[0].radius) + 0.002);
+    EXPECT_LE(passes_by(simulation), double(style.host.ties[0].radius));
     const Health health = measure_health(simulation.solver(), simulation.params(), false);
     EXPECT_LE(health.stretch_max, 0.01);
     std::vector<int> resets;
