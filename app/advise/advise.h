@@ -19,7 +19,7 @@ enum class Verdict
 {
     LEAVE_OUT,     // the tolerance cannot tell it from the style as it is
     TOGETHER_NOT,  // that would go, but not along with what saves more
-    SAVES_NOTHING, // that would go, but the clock does not find that it costs anything
+    SAVES_NOTHING, // that would go, but the clock is not sure that it costs anything
     KEEP,
     LACKS, // what the tolerance can tell, and the style does not have
     ENOUGH // the style does without, and nobody would see it

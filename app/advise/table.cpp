@@ -17,7 +17,7 @@ static const char* word(Verdict verdict)
     case Verdict::TOGETHER_NOT:
         return "keep: with what saves more it is too much";
     case Verdict::SAVES_NOTHING:
-        return "keep: it saves nothing";
+        return "keep: no saving is sure";
     case Verdict::KEEP:
         return "keep";
     case Verdict::LACKS:
