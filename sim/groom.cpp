@@ -47,26 +47,20 @@ float random01(int seed, int index, int channel)
 
 static float random_sign(int seed, int index, int channel) { return 2.0f * random01(seed, index, channel) - 1.0f; }
 
-static glm::vec3 unit(glm::vec3 v, glm::vec3 otherwise)
-{
-    const float length = glm::length(v);
-    return length > 1e-6f ? v / length : otherwise;
-}
-
 // The direction along the scalp, at a root with normal n, that leads away from the crown or its parting. The parting is
 // an arc about the head's side-to-side axis, from the crown towards the face.
 static glm::vec3 flow(glm::vec3 n, glm::vec3 crown, float part)
 {
     const glm::vec3 side(1.0f, 0.0f, 0.0f);
-    const glm::vec3 pole = unit(crown, {0.0f, 1.0f, 0.0f});
-    const glm::vec3 axis = unit(side - pole * glm::dot(side, pole), {0.0f, 0.0f, 1.0f});
+    const glm::vec3 pole = unit_or(crown, {0.0f, 1.0f, 0.0f});
+    const glm::vec3 axis = unit_or(side - pole * glm::dot(side, pole), {0.0f, 0.0f, 1.0f});
     const glm::vec3 ahead = glm::cross(axis, pole); // where the arc leads from the crown
     // The arc's point nearest to n, by its angle from the crown.
     const float angle = std::clamp(std::atan2(glm::dot(n, ahead), glm::dot(n, pole)), 0.0f, part);
     const glm::vec3 nearest = pole * std::cos(angle) + ahead * std::sin(angle);
     const glm::vec3 away = glm::cross(n, glm::cross(n, nearest)); // across n to the last bit, even close to the crown
     const glm::vec3 back = -ahead - n * glm::dot(-ahead, n);      // on the parting itself: backwards
-    return unit(away, unit(back, unit(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
+    return unit_or(away, unit_or(back, unit_or(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.8f)), {1.0f, 0.0f, 0.0f})));
 }
 
 static glm::vec3 root_direction(const Shaping& shaping, const HairParams& p, int guide)
@@ -80,7 +74,7 @@ static glm::vec3 root_direction(const Shaping& shaping, const HairParams& p, int
     const glm::vec3 down =
         parted_flow(shaping, shaping.scalp.positions[size_t(guide)], n, flow(n, crown, p.root_part * degree));
     const glm::vec3 along = glm::angleAxis(sweep, n) * down;
-    return unit(n * std::cos(lift) + along * std::sin(lift), n);
+    return unit_or(n * std::cos(lift) + along * std::sin(lift), n);
 }
 
 // A mix across a parting would lie flat over it: guides that leave the head the other way than the nearest one get no
@@ -358,10 +352,17 @@ static bool curls_differ(const HairParams& p)
     return curls_are_shape(p) && (p.curl_phase > 0.0f || p.curl_variation > 0.0f || p.curl_hand == 2);
 }
 
-Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
+Groom grow(const HairParams& params, const Scalp& authored, const HostParams& host)
 {
-    const Scalp scalp = guide_scalp(authored, p);
-    const Shaping shaping = shape_over(p, host, authored, scalp);
+    const Scalp scalp = guide_scalp(authored, params);
+    return grow(shape_over(params, host, authored, scalp));
+}
+
+Groom grow(const Shaping& shaping)
+{
+    const HairParams& p = shaping.params;
+    const HostParams& host = shaping.host;
+    const Scalp& scalp = shaping.scalp;
     Ground ground{shaping, varies(host), {}, {}, {}, {}};
     Groom groom;
     groom.nodes = p.strand_nodes;
@@ -394,12 +395,8 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
         const size_t g = size_t(s < groom.guides ? s : 0);
         const HairParams own = ground.varied ? params_at(shaping, at_vertex(scalp, g)) : p;
         const glm::vec3 direction = root_direction(shaping, own, int(g));
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const size_t at = size_t(strand_value(s, 0, axis, 1));
-            groom.root_position[at] = scalp.positions[g][axis] * p.head_scale;
-            groom.root_direction[at] = direction[axis];
-        }
+        put_vector(groom.root_position, s, 0, 1, scalp.positions[g] * p.head_scale);
+        put_vector(groom.root_direction, s, 0, 1, direction);
         // All segments of a strand are equally long; the one under the scalp does not count towards its length.
         float& segment = groom.segment_length[size_t(s)];
         segment = own.strand_length / float(groom.nodes - 2);
@@ -408,14 +405,12 @@ Groom grow(const HairParams& p, const Scalp& authored, const HostParams& host)
             const glm::dvec3 root = glm::dvec3(scalp.positions[g]) * double(p.head_scale), along = direction;
             const glm::vec3 outward = scalp.normals[g] - direction * glm::dot(scalp.normals[g], direction);
             const glm::vec3 side = glm::cross(direction, glm::vec3(0.0f, 1.0f, 0.0f));
-            const glm::dvec3 normal = unit(outward, unit(side, {1.0f, 0.0f, 0.0f}));
+            const glm::dvec3 normal = unit_or(outward, unit_or(side, {1.0f, 0.0f, 0.0f}));
             std::vector<glm::dvec3> nodes;
             segment = float(shape_form(own, waves_are_shape(p), curls_are_shape(p) ? curl_of(own, int(g)) : Curl{},
                                        root, along, glm::normalize(normal - along * glm::dot(normal, along)), nodes));
             for (int k = 0; k < groom.nodes; ++k)
-                for (int axis = 0; axis < 3; ++axis)
-                    groom.natural_position[size_t(strand_value(s, k, axis, groom.nodes))] =
-                        float(nodes[size_t(k)][axis]);
+                put_vector(groom.natural_position, s, k, groom.nodes, nodes[size_t(k)]);
         }
         // The axis of waves counts for their length; the strand is longer.
         groom.longest = std::max({groom.longest, own.strand_length, segment * float(groom.nodes - 2)});

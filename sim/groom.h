@@ -7,6 +7,8 @@
 namespace coif
 {
 
+struct Shaping;
+
 // The rest shape of all strands, grown on a scalp. Guides lie in blocks of 16 lanes (kernels/shared.h); the lanes that
 // fill the last block are copies of guide 0 that nothing reads.
 struct Groom
@@ -47,12 +49,19 @@ inline int held_nodes(const Groom& groom, int strand) { return groom.held.empty(
 // params.interpolation_seed. What varies over the scalp is `host`'s: lengths and stiffness of guides are those at their
 // roots, lengths and looks of drawn strands those at theirs. Throws Error where interpolation.refine asks for too many.
 Groom grow(const HairParams& params, const Scalp& scalp, const HostParams& host = {});
+Groom grow(const Shaping& shaping); // the same, where the scalp is already refined and the style laid over it
 
 // A vector of values laid out [block][node][axis][lane], as guides' positions are.
 inline glm::dvec3 vector_at(const float* values, int strand, int node, int nodes)
 {
     const float* at = values + strand_value(strand, node, 0, nodes);
     return {at[0], at[LANES], at[2 * LANES]};
+}
+
+inline void put_vector(std::vector<float>& values, int strand, int node, int nodes, const glm::dvec3& v)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        values[size_t(strand_value(strand, node, axis, nodes))] = float(v[axis]);
 }
 
 // Cosine between root directions: roots that lean further apart lie on two sides of a parting.

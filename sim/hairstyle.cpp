@@ -300,7 +300,7 @@ std::string value_text(const Hairstyle& style, const ParamInfo& info)
         return toml_string(
             reinterpret_cast<const StoredShape*>(reinterpret_cast<const char*>(&style.host) + info.offset)->file);
     case Kind::LIST:
-        return with_list(style.host, info, [](const auto& list) { return fmt::format("{} of them", list.size()); });
+        return fmt::format("{} of them", list_size(style.host, info));
     }
     return {};
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "sim/error.h"
 #include "sim/params.h"
 
 #include <filesystem>
@@ -25,6 +26,20 @@ struct Hairstyle
 
     std::string name() const { return file.empty() ? "untitled" : file.stem().string(); }
 };
+
+// What `action` returns; an Error that it throws is told with the place where the style says `key`.
+template <typename Action> auto placed(const Hairstyle& style, const std::string& key, Action action)
+{
+    try
+    {
+        return action();
+    }
+    catch (const Error& e)
+    {
+        const auto at = style.places.find(key);
+        throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
+    }
+}
 
 // Throws Error "bob.toml:12:9: strand.length is -1, but must lie in [0.002, 1.5] m".
 Hairstyle load_hairstyle(const std::filesystem::path& file);

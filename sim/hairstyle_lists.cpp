@@ -439,30 +439,18 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 void load_beside(Hairstyle& style)
 {
     const fs::path folder = style.file.parent_path();
-    const auto placed = [&](const std::string& key, auto&& load)
-    {
-        try
-        {
-            load();
-        }
-        catch (const Error& e)
-        {
-            const auto at = style.places.find(key);
-            throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
-        }
-    };
     if (StoredShape& rest = style.host.groom_rest; !rest.file.empty())
-        placed("groom.rest",
+        placed(style, "groom.rest",
                [&] { rest.shapes = std::make_shared<const StrandShapes>(read_shapes(folder / rest.file)); });
     for (size_t i = 0; i < style.host.regions.size(); ++i)
         if (Region& region = style.host.regions[i]; !region.file.empty())
-            placed(fmt::format("region[{}]", i),
+            placed(style, fmt::format("region[{}]", i),
                    [&] {
                        region.weights = read_map_values(folder / region.file, {0.0f, 1.0f, ""});
                    });
     for (size_t i = 0; i < style.host.maps.size(); ++i)
         if (ScalpMap& map = style.host.maps[i]; !map.file.empty())
-            placed(fmt::format("map[{}]", i),
+            placed(style, fmt::format("map[{}]", i),
                    [&] {
                        map.values = read_map_values(folder / map.file, {-1000.0f, 1000.0f, ""});
                    });

@@ -328,6 +328,12 @@ float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c)
     return glm::length(from_triangle(p, a, b, c));
 }
 
+glm::vec3 unit_or(glm::vec3 v, glm::vec3 otherwise, float least)
+{
+    const float length = glm::length(v);
+    return length > least ? v / length : otherwise;
+}
+
 std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center)
 {
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
@@ -343,8 +349,7 @@ std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center)
         glm::vec3 n = normals[i];
         if (!(glm::dot(n, n) > 0.0f))
             n = mesh.positions[i] - center;
-        const float length = glm::length(n);
-        normals[i] = length > 0.0f ? n / length : glm::vec3(0.0f, 1.0f, 0.0f);
+        normals[i] = unit_or(n, {0.0f, 1.0f, 0.0f}, 0.0f);
     }
     return normals;
 }

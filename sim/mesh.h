@@ -69,6 +69,9 @@ Mesh upright(FileMesh mesh, int unit, int up);
 glm::vec3 from_triangle(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c);
 float triangle_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c);
 
+// v at unit length; shorter than `least`, which has no direction to speak of, `otherwise`.
+glm::vec3 unit_or(glm::vec3 v, glm::vec3 otherwise, float least = 1e-6f);
+
 // Area-weighted normals of the positions; where triangles give none, the direction from `center`.
 std::vector<glm::vec3> vertex_normals(const Mesh& mesh, glm::vec3 center);
 

@@ -33,12 +33,6 @@ int most_refinements(const Scalp& scalp)
     return times;
 }
 
-static glm::vec3 unit_or(glm::vec3 v, glm::vec3 otherwise)
-{
-    const float length = glm::length(v);
-    return length > 0.0f ? v / length : otherwise;
-}
-
 // Normals that are a sphere's own if the vertices lie on one, however unevenly: Max, Weights for Computing Vertex
 // Normals from Facet Normals, 1999. Where triangles lie to one side only, at borders, they would lean: there they are
 // the mirror images of the inner neighbours'.
@@ -62,17 +56,17 @@ static std::vector<glm::vec3> round_normals(const Scalp& scalp)
         if (count == 1)
             border[side.first] = border[side.second] = 1;
     for (size_t i = 0; i < p.size(); ++i)
-        normals[i] = unit_or(normals[i], scalp.normals[i]);
+        normals[i] = unit_or(normals[i], scalp.normals[i], 0.0f);
     for (const auto& [side, count] : triangles)
     {
         const auto [inner, outer] = border[side.first] ? std::pair(side.second, side.first) : side;
         if (border[inner] || !border[outer])
             continue;
-        const glm::vec3 along = unit_or(p[outer] - p[inner], glm::vec3(0.0f));
+        const glm::vec3 along = unit_or(p[outer] - p[inner], glm::vec3(0.0f), 0.0f);
         mirrored[outer] += normals[inner] - 2.0f * glm::dot(normals[inner], along) * along;
     }
     for (size_t i = 0; i < p.size(); ++i)
-        normals[i] = unit_or(mirrored[i], normals[i]);
+        normals[i] = unit_or(mirrored[i], normals[i], 0.0f);
     return normals;
 }
 

@@ -221,6 +221,11 @@ HairParams device_params(const HairParams& authored)
     return params;
 }
 
+size_t list_size(const HostParams& host, const ParamInfo& info)
+{
+    return with_list(host, info, [](const auto& list) { return list.size(); });
+}
+
 std::string glsl_params_block()
 {
     std::string text = "layout(std140) uniform HairParams {\n";

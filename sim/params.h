@@ -99,6 +99,9 @@ template <typename Host, typename Action> auto with_list(Host& host, const Param
 #undef COIF_PARAM
 #undef COIF_HOST
 
+// Entries of a LIST.
+size_t list_size(const HostParams& host, const ParamInfo& info);
+
 std::span<const ParamInfo> param_table();
 const char* kind_name(Kind kind);
 const char* scope_name(Scope scope);

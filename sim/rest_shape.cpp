@@ -33,12 +33,6 @@ static Vec vector_of(const std::vector<float>& from, int strand, int node, int n
     return vector_at(from.data(), strand, node, nodes);
 }
 
-static void put(std::vector<float>& to, int strand, int node, int nodes, Vec v)
-{
-    for (int axis = 0; axis < 3; ++axis)
-        to[size_t(strand_value(strand, node, axis, nodes))] = float(v[axis]);
-}
-
 // The nodes of a strand with segments of length `rest` that go the way those of `shape` go; straight without one.
 static std::vector<Vec> chain(const std::vector<float>& shape, int strand, int nodes, Vec root, Vec direction,
                               double rest)
@@ -175,9 +169,9 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         const std::vector<Vec> natural = chain(groom.natural_position, s, nodes, root, direction, rest);
         const std::vector<Vec> x = at_rest ? chain(groom.rest_position, s, nodes, root, direction, rest) : natural;
         const Vec normal = any_normal(direction);
-        put(shape.normal, s, 0, 1, normal);
+        put_vector(shape.normal, s, 0, 1, normal);
         for (int k = 0; k < nodes; ++k)
-            put(shape.position, s, k, nodes, x[size_t(k)]);
+            put_vector(shape.position, s, k, nodes, x[size_t(k)]);
 
         std::vector<Vec> off(x.size(), Vec(0.0));
         std::vector<Vec> bend = bends(natural, off, normal);
@@ -198,7 +192,7 @@ RestShape make_rest_shape(const HairParams& params, const Groom& groom)
         }
         for (int e = 1; e + 1 < nodes; ++e)
         {
-            put(shape.bend, s, e, nodes, bend[size_t(e)]);
+            put_vector(shape.bend, s, e, nodes, bend[size_t(e)]);
             shape.curled |= glm::length(bend[size_t(e)]) > 1e-5 * rest;
         }
     }
@@ -211,7 +205,7 @@ std::vector<float> in_head_frame(const float* position, const Groom& groom, cons
     const glm::dquat back = glm::conjugate(turn);
     for (int s = 0; s < groom.blocks * LANES; ++s)
         for (int k = 0; k < groom.nodes; ++k)
-            put(out, s, k, groom.nodes, back * vector_at(position, s, k, groom.nodes));
+            put_vector(out, s, k, groom.nodes, back * vector_at(position, s, k, groom.nodes));
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include "sim/error.h"
 #include "sim/material.h"
 #include "sim/rest_shape.h"
+#include "sim/scatter.h"
 #include "sim/shaping.h"
 #include "sim/source.h"
 
@@ -21,27 +22,12 @@ static std::filesystem::path asset(const Hairstyle& style, const std::string& ke
     return resolve_path(style, key, written, data_folder() / "assets");
 }
 
-// A fault in what the style says is told with the place where the style says it.
-template <typename Action> static auto placed(const Hairstyle& style, const std::string& key, Action action)
-{
-    try
-    {
-        return action();
-    }
-    catch (const Error& e)
-    {
-        const auto at = style.places.find(key);
-        throw fail("{}{}", at == style.places.end() ? "" : at->second + ": ", e.what());
-    }
-}
-
 // What is edited must do as what is read: a style that no longer opens would be lost work.
 static void check_lists(const Hairstyle& style, const Scalp& scalp)
 {
-    const auto size = [](const auto& list) { return list.size(); };
     for (const ParamInfo& info : param_table())
         if (info.kind == Kind::LIST)
-            for (size_t i = 0; i < with_list(style.host, info, size); ++i)
+            for (size_t i = 0; i < list_size(style.host, info); ++i)
                 placed(style, fmt::format("{}[{}]", info.group, i), [&] { check_entry(style.host, info, i, scalp); });
 }
 
@@ -59,9 +45,8 @@ Assets load_assets(const Hairstyle& style)
     assets.scalp = load("scalp.mesh", style.host.scalp_mesh, load_scalp);
     if (style.params.interpolation_refine > most_refinements(assets.scalp))
         placed(style, "interpolation.refine", [&] { return refined(assets.scalp, style.params.interpolation_refine); });
-    if (const auto& rest = style.host.groom_rest.shapes;
-        rest && size_t(rest->strands()) != assets.scalp.positions.size())
-        placed(style, "groom.rest", [&] { grow(style.params, assets.scalp, style.host); });
+    if (const auto& rest = style.host.groom_rest.shapes)
+        placed(style, "groom.rest", [&] { check_shapes(*rest, assets.scalp); });
     check_lists(style, assets.scalp);
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh,
@@ -146,15 +131,16 @@ TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedG
 Groom grown(const Hairstyle& style, Assets& assets)
 {
     check_lists(style, assets.scalp);
-    Groom groom = grow(style.params, assets.scalp, style.host);
-    const std::vector<Tie>& ties = style.host.ties;
-    if (ties.empty())
+    const Scalp scalp = guide_scalp(assets.scalp, style.params);
+    const Shaping shaping = shape_over(style.params, style.host, assets.scalp, scalp);
+    Groom groom = grow(shaping);
+    if (style.host.ties.empty())
         return groom;
     const TieGround ground = tie_ground(style, assets, head_grid(style, assets));
-    const TieRoots roots = tie_roots(groom, style.params, style.host, assets.scalp);
-    for (size_t i = 0; i < ties.size(); ++i)
-        placed(style, fmt::format("tie[{}]", i), [&] { check_tie(groom, style.params, ties, i, roots, ground); });
-    tie_hair(groom, style.params, assets.scalp, ties, roots, ground);
+    const TieRoots roots = tie_roots(groom, shaping);
+    for (size_t i = 0; i < style.host.ties.size(); ++i)
+        placed(style, fmt::format("tie[{}]", i), [&] { check_tie(groom, shaping, i, roots, ground); });
+    tie_hair(groom, shaping, roots, ground);
     return groom;
 }
 

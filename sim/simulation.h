@@ -42,7 +42,7 @@ std::vector<Collider> all_colliders(const Hairstyle& style, const Assets& assets
 // The head that hair is tied over: its grid as head_grid() has it, or else its spheres.
 TieGround tie_ground(const Hairstyle& style, const Assets& assets, const PlacedGrid& grid);
 
-// The style's hair, grown on its scalp and tied. Throws Error as grow() and tie_hair().
+// The style's hair, grown on its scalp and tied. Throws Error as grow() and check_tie().
 Groom grown(const Hairstyle& style, Assets& assets);
 
 // Strands of ties that are too short to come through their rings, as "tie 'left': 12 of its 90 guides ..."; empty if

@@ -84,12 +84,19 @@ static glm::vec3 along(const glm::vec3* strand, int nodes, float length)
     return strand[1];
 }
 
+static size_t authored_vertices(const Scalp& scalp) { return scalp.positions.size() - scalp.between.size(); }
+
+void check_shapes(const StrandShapes& shapes, const Scalp& scalp)
+{
+    if (size_t(shapes.strands()) != authored_vertices(scalp))
+        throw fail("groom.rest holds {} strands, but the scalp has {} vertices: freeze the hair on this scalp again",
+                   shapes.strands(), authored_vertices(scalp));
+}
+
 void take_shapes(Groom& groom, const StrandShapes& shapes, const Scalp& scalp, float head_scale)
 {
-    const size_t authored = scalp.positions.size() - scalp.between.size(), nodes = size_t(shapes.nodes);
-    if (size_t(shapes.strands()) != authored)
-        throw fail("groom.rest holds {} strands, but the scalp has {} vertices: freeze the hair on this scalp again",
-                   shapes.strands(), authored);
+    check_shapes(shapes, scalp);
+    const size_t authored = authored_vertices(scalp), nodes = size_t(shapes.nodes);
     // Each strand against its root.
     std::vector<glm::vec3> all;
     for (size_t s = 0; s < authored; ++s)
@@ -121,9 +128,8 @@ void take_shapes(Groom& groom, const StrandShapes& shapes, const Scalp& scalp, f
         {
             const glm::vec3 from_root =
                 k == 0 ? -direction * segment : along(strand, shapes.nodes, segment * float(k - 1));
-            for (int axis = 0; axis < 3; ++axis)
-                groom.rest_position[size_t(strand_value(s, k, axis, groom.nodes))] =
-                    groom.root_position[size_t(strand_value(s, 0, axis, 1))] + from_root[axis];
+            put_vector(groom.rest_position, s, k, groom.nodes,
+                       vector_at(groom.root_position.data(), s, 0, 1) + glm::dvec3(from_root));
         }
     }
 }

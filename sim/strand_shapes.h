@@ -38,9 +38,12 @@ StrandShapes read_shapes(const std::filesystem::path& file);
 StrandShapes parse_shapes(const std::string& text, const std::string& name);
 std::string shapes_text(const StrandShapes& shapes);
 
+// Throws Error where there are not as many strands as the authored scalp has vertices; `scalp` may be refined.
+void check_shapes(const StrandShapes& shapes, const Scalp& scalp);
+
 // Gives a groom these shapes for its rest shape, to be held whole: its strands follow their curves as far as they are
 // long, and go on straight where they are longer. Vertices between others, of a refined scalp, take the mean of their
-// shapes. Throws Error where there are not as many strands as the authored scalp has vertices.
+// shapes. Throws Error as check_shapes().
 void take_shapes(Groom& groom, const StrandShapes& shapes, const Scalp& scalp, float head_scale);
 
 // Guides as they lie, [block][node][axis][lane] in the head's frame (in_head_frame()), of a groom whose scalp is not

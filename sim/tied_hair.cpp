@@ -20,12 +20,6 @@ static constexpr float kClearance = 0.0015f; // m that held hair keeps from the 
 static constexpr int kPieces = 48;           // of a path from root to ring
 static constexpr float kLeastTail = 2.0f;    // segments that must be left behind the ring
 
-static vec3 unit_or(vec3 v, vec3 otherwise)
-{
-    const float size = glm::length(v);
-    return size > 1e-6f ? v / size : otherwise;
-}
-
 static vec3 some_normal(vec3 t)
 {
     return glm::normalize(std::abs(t.x) > 0.6f ? vec3(-t.z, 0.0f, t.x) : vec3(0.0f, t.z, -t.y));
@@ -246,12 +240,6 @@ static HeldStrand walked(const std::vector<vec3>& path, vec3 axis, float segment
 
 static vec3 root_of(const Groom& groom, int guide) { return vec3(vector_at(groom.root_position.data(), guide, 0, 1)); }
 
-static void put(std::vector<float>& to, int strand, int node, int nodes, vec3 v)
-{
-    for (int axis = 0; axis < 3; ++axis)
-        to[size_t(strand_value(strand, node, axis, nodes))] = v[axis];
-}
-
 // The rest of a strand behind the ring: as it was grown, turned so that it leaves the ring the way it left the root.
 static void lay(Groom& groom, int guide, const HeldStrand& held, vec3 leaves, float segment)
 {
@@ -266,10 +254,10 @@ static void lay(Groom& groom, int guide, const HeldStrand& held, vec3 leaves, fl
         nodes.push_back(nodes.back() + turn * unit_or(a, grown) * segment);
     }
     const vec3 direction = unit_or(nodes[1] - nodes[0], grown);
-    put(groom.root_direction, guide, 0, 1, direction);
-    put(groom.natural_position, guide, 0, groom.nodes, nodes[0] - direction * segment);
+    put_vector(groom.root_direction, guide, 0, 1, direction);
+    put_vector(groom.natural_position, guide, 0, groom.nodes, nodes[0] - direction * segment);
     for (int k = 1; k < groom.nodes; ++k)
-        put(groom.natural_position, guide, k, groom.nodes, nodes[size_t(k - 1)]);
+        put_vector(groom.natural_position, guide, k, groom.nodes, nodes[size_t(k - 1)]);
     groom.held[size_t(guide)] = first + 1;
 }
 
@@ -279,9 +267,9 @@ static void say_natural(Groom& groom)
     groom.natural_position.resize(size_t(groom.blocks) * LANES * size_t(groom.nodes) * 3);
     for (int s = 0; s < groom.blocks * LANES; ++s)
         for (int k = 0; k < groom.nodes; ++k)
-            put(groom.natural_position, s, k, groom.nodes,
-                root_of(groom, s) + vec3(vector_at(groom.root_direction.data(), s, 0, 1)) *
-                                        (float(k - 1) * groom.segment_length[size_t(s)]));
+            put_vector(groom.natural_position, s, k, groom.nodes,
+                       root_of(groom, s) + vec3(vector_at(groom.root_direction.data(), s, 0, 1)) *
+                                               (float(k - 1) * groom.segment_length[size_t(s)]));
 }
 
 namespace
@@ -522,23 +510,22 @@ static void tie_drawn(Groom& groom, const HairParams& params, const Scalp& scalp
 
 // ---- all of it
 
-TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParams& host, const Scalp& authored)
+TieRoots tie_roots(const Groom& groom, const Shaping& shaping)
 {
+    const HostParams& host = shaping.host;
     const std::vector<Tie>& ties = host.ties;
     const auto nearest = [&](vec3 root, auto&& takes)
     {
         int found = -1;
         float least = INFINITY;
         for (size_t i = 0; i < ties.size(); ++i)
-            if (const float d = glm::distance(root, ties[i].at * params.head_scale); d < least && takes(i))
+            if (const float d = glm::distance(root, ties[i].at * shaping.params.head_scale); d < least && takes(i))
             {
                 least = d;
                 found = int(i);
             }
         return found;
     };
-    const Scalp scalp = guide_scalp(authored, params);
-    const Shaping shaping = shape_over(params, host, authored, scalp);
     const auto gathers = [&](size_t tie, const ScalpPlace& place)
     {
         bool in = ties[tie].regions.empty();
@@ -550,7 +537,7 @@ TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParam
     TieRoots roots;
     for (int g = 0; g < groom.guides; ++g)
     {
-        const ScalpPlace place = at_vertex(scalp, size_t(g));
+        const ScalpPlace place = at_vertex(shaping.scalp, size_t(g));
         roots.guides.push_back(nearest(root_of(groom, g), [&](size_t tie) { return gathers(tie, place); }));
     }
     for (const DrawnStrand& strand : groom.drawn)
@@ -564,20 +551,20 @@ TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParam
     return roots;
 }
 
-void check_tie(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties, size_t tie,
-               const TieRoots& roots, const TieGround& ground)
+void check_tie(const Groom& groom, const Shaping& shaping, size_t tie, const TieRoots& roots, const TieGround& ground)
 {
-    ring_of(ties[tie], groom, params, ground);
+    const Tie& own = shaping.host.ties[tie];
+    ring_of(own, groom, shaping.params, ground);
     if (std::find(roots.guides.begin(), roots.guides.end(), int(tie)) == roots.guides.end())
-        throw fail("tie '{}' gathers no hair: no root belongs to it", ties[tie].name);
+        throw fail("tie '{}' gathers no hair: no root belongs to it", own.name);
 }
 
-void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, const std::vector<Tie>& ties,
-              const TieRoots& roots, const TieGround& ground)
+void tie_hair(Groom& groom, const Shaping& shaping, const TieRoots& roots, const TieGround& ground)
 {
+    const HairParams& params = shaping.params;
+    const std::vector<Tie>& ties = shaping.host.ties;
     if (ties.empty())
         return;
-    const Scalp scalp = guide_scalp(authored, params);
     if (groom.natural_position.empty())
         say_natural(groom);
     groom.held.assign(size_t(groom.blocks) * LANES, 2);
@@ -586,7 +573,6 @@ void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, con
     std::vector<TiedGuide> tied(size_t(groom.guides));
     for (size_t i = 0; i < ties.size(); ++i)
     {
-        check_tie(groom, params, ties, i, roots, ground);
         const Ring ring = ring_of(ties[i], groom, params, ground);
         std::vector<int> guides;
         for (int g = 0; g < groom.guides; ++g)
@@ -599,12 +585,12 @@ void tie_hair(Groom& groom, const HairParams& params, const Scalp& authored, con
     for (int s = groom.guides; s < groom.blocks * LANES; ++s)
     {
         groom.held[size_t(s)] = groom.held[0];
-        put(groom.root_direction, s, 0, 1, vec3(vector_at(groom.root_direction.data(), 0, 0, 1)));
+        put_vector(groom.root_direction, s, 0, 1, vec3(vector_at(groom.root_direction.data(), 0, 0, 1)));
         for (int k = 0; k < groom.nodes; ++k)
-            put(groom.natural_position, s, k, groom.nodes,
-                vec3(vector_at(groom.natural_position.data(), 0, k, groom.nodes)));
+            put_vector(groom.natural_position, s, k, groom.nodes,
+                       vec3(vector_at(groom.natural_position.data(), 0, k, groom.nodes)));
     }
-    tie_drawn(groom, params, scalp, roots, tied);
+    tie_drawn(groom, params, shaping.scalp, roots, tied);
     if (!groom.rest_position.empty()) // as it was once frozen: what is held goes where the rings are now
     {
         const std::vector<float> multiplier = groom.rest_multiplier;
@@ -629,13 +615,13 @@ void keep_rest(Groom& groom, const Groom& old)
         const int held = held_nodes(groom, s);
         const std::vector<float>& shape = groom.natural_position;
         for (int k = 0; k < held && held > 2; ++k)
-            put(groom.rest_position, s, k, groom.nodes, vec3(vector_at(shape.data(), s, k, groom.nodes)));
+            put_vector(groom.rest_position, s, k, groom.nodes, vec3(vector_at(shape.data(), s, k, groom.nodes)));
         for (int k = held; k < groom.nodes && held > 2; ++k)
         {
             const glm::dvec3 a = vector_at(old.rest_position.data(), s, k, groom.nodes) -
                                  vector_at(old.rest_position.data(), s, k - 1, groom.nodes);
-            put(groom.rest_position, s, k, groom.nodes,
-                vec3(vector_at(groom.rest_position.data(), s, k - 1, groom.nodes) + a));
+            put_vector(groom.rest_position, s, k, groom.nodes,
+                       vec3(vector_at(groom.rest_position.data(), s, k - 1, groom.nodes) + a));
         }
     }
     if (groom.held != old.held)

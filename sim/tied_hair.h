@@ -2,6 +2,7 @@
 #pragma once
 #include "sim/distance_grid.h"
 #include "sim/groom.h"
+#include "sim/shaping.h"
 #include "sim/tie.h"
 
 #include <vector>
@@ -17,8 +18,8 @@ struct TieRoots
 };
 
 // Every guide to the nearest of the ties that gather the hair of its region; drawn strands to the nearest of those that
-// their guides belong to, so that what lies between two ties parts in a line. `scalp` as authored.
-TieRoots tie_roots(const Groom& groom, const HairParams& params, const HostParams& host, const Scalp& scalp);
+// their guides belong to, so that what lies between two ties parts in a line.
+TieRoots tie_roots(const Groom& groom, const Shaping& shaping);
 
 // What hair runs over on its way to a ring: the distance grid of the head, or the spheres fixed to it. In the head's
 // frame, m, scaled by head.scale as Solver has them.
@@ -28,19 +29,16 @@ struct TieGround
     std::vector<Collider> spheres;
 };
 
-// Gathers the hair of a groom, as grow() has made it of `params` (as authored) and `scalp`, in rings. Each tied guide
-// runs from its root over the ground to a place of its own in the ring, neighbours beside each other and hair from
-// further away above, and leaves along the axis; up to there it is held (groom.held, natural_position), the rest keeps
-// the shape that grow() gave it. Guides too short to come through are left as they are and counted. Drawn strands mix
-// guides of one tie only, and copies of tied guides become mixes; length_variation cuts what hangs out of the ring.
-// Throws Error "tie 'left' has its ring 12 mm inside the head ...", for rings and axes that are no such thing, and for
-// ties that no root belongs to.
-void tie_hair(Groom& groom, const HairParams& params, const Scalp& scalp, const std::vector<Tie>& ties,
-              const TieRoots& roots, const TieGround& ground);
+// Throws Error "tie 'left' has its ring 12 mm inside the head ...", for a ring or an axis that is no such thing, and
+// for a tie that no root belongs to.
+void check_tie(const Groom& groom, const Shaping& shaping, size_t tie, const TieRoots& roots, const TieGround& ground);
 
-// Throws what tie_hair() would for one of the ties.
-void check_tie(const Groom& groom, const HairParams& params, const std::vector<Tie>& ties, size_t tie,
-               const TieRoots& roots, const TieGround& ground);
+// Gathers the hair of a groom, as grow() has made it of `shaping`, in rings, which check_tie() must know. Each tied
+// guide runs from its root over the ground to a place of its own in the ring, neighbours beside each other and hair
+// from further away above, and leaves along the axis; up to there it is held (groom.held, natural_position), the rest
+// keeps the shape that grow() gave it. Guides too short to come through are left as they are and counted. Drawn strands
+// mix guides of one tie only, and copies of tied guides become mixes; length_variation cuts what hangs out of the ring.
+void tie_hair(Groom& groom, const Shaping& shaping, const TieRoots& roots, const TieGround& ground);
 
 // Guides that lie in rings as `groom` says and elsewhere go the way they went in `old`, where that had rest shapes:
 // what set_groom() goes on with when a ring is moved.

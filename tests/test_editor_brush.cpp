@@ -113,12 +113,12 @@ TEST_F(EditorBrush, scissors_cut_below_a_line)
 {
     choose("cut");
     const double y = 420.0;
-    xdotool("mousemove " + at(100.0, y));
+    xdotool("mousemove " + at(330.0, y)); // beside the tools
     frames(2);
     xdotool("mousedown 1");
     for (int i = 1; i <= 10; ++i)
     {
-        xdotool("mousemove " + at(100.0 + 60.0 * i, y));
+        xdotool("mousemove " + at(330.0 + 50.0 * i, y));
         frames(1);
     }
     shoot("scissors");

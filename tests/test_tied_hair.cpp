@@ -263,11 +263,12 @@ TEST(TiedHair, ItsRingIsTakenAndDraggedOverTheHead)
         EXPECT_GT(glm::distance(dragged.at, tie.at), 0.02f);
         EXPECT_NEAR(height_above(ground, dragged.at), high, 1e-3f);
         EXPECT_NEAR(glm::length(dragged.axis), glm::length(tie.axis), 1e-4f);
-        Groom groom = grow(simulation.params(), simulation.assets().scalp);
         HostParams host;
         host.ties = {dragged};
-        const TieRoots roots = tie_roots(groom, simulation.params(), host, simulation.assets().scalp);
-        EXPECT_NO_THROW(tie_hair(groom, simulation.params(), simulation.assets().scalp, host.ties, roots, ground));
+        const Scalp& scalp = simulation.assets().scalp;
+        const Shaping shaping = shape_over(simulation.params(), host, scalp, scalp);
+        const Groom groom = grow(shaping);
+        EXPECT_NO_THROW(check_tie(groom, shaping, 0, tie_roots(groom, shaping), ground));
     }
 }
 

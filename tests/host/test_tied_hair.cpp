@@ -45,9 +45,12 @@ struct Scene
     }
     void tie()
     {
-        groom = grow(style.params, scalp, style.host);
-        roots = tie_roots(groom, style.params, style.host, scalp);
-        tie_hair(groom, style.params, scalp, style.host.ties, roots, ground);
+        const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
+        groom = grow(shaping);
+        roots = tie_roots(groom, shaping);
+        for (size_t i = 0; i < style.host.ties.size(); ++i)
+            check_tie(groom, shaping, i, roots, ground);
+        tie_hair(groom, shaping, roots, ground);
     }
     glm::vec3 node(int guide, int k) const
     {
