@@ -65,8 +65,7 @@ float* Rasteriser::solid_depth(int width, int height)
     room_for("solid", bytes);
     width_ = width;
     height_ = height;
-    solid_ = static_cast<float*>(
-        device_.queue.enqueueMapBuffer(buffers_["solid"], CL_TRUE, CL_MAP_WRITE, 0, bytes));
+    solid_ = static_cast<float*>(device_.queue.enqueueMapBuffer(buffers_["solid"], CL_TRUE, CL_MAP_WRITE, 0, bytes));
     return solid_;
 }
 
@@ -74,12 +73,12 @@ void Rasteriser::launch(const std::string& pass, const std::string& extra, size_
 {
     const std::string key = pass + extra;
     if (!kernels_.contains(key))
-        kernels_[key] = load_kernel(device_, pass, fmt::format("-D WIDTH={} -D BAND={} {}", device_.width,
-                                                               band(device_), extra));
+        kernels_[key] =
+            load_kernel(device_, pass, fmt::format("-D WIDTH={} -D BAND={} {}", device_.width, band(device_), extra));
     // On CPUs each work-item is a group of its own, or PoCL would give few groups to one core.
     const size_t group = device_.is_gpu && items > 1 ? 64 : 1;
-    launches_.emplace_back(pass, run(device_, kernels_[key], buffers_,
-                                     cl::NDRange((items + group - 1) / group * group), cl::NDRange(group)));
+    launches_.emplace_back(pass, run(device_, kernels_[key], buffers_, cl::NDRange((items + group - 1) / group * group),
+                                     cl::NDRange(group)));
 }
 
 void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
@@ -163,8 +162,7 @@ try
     write(device_, buffers_["frame"], std::vector<RasterFrame>(1, frame));
     write(device_, buffers_["braids"], strands.braids);
     write(device_, buffers_["wave_table"], strands.waves);
-    std::string options =
-        fmt::format("-D NODES={}{}", groom.nodes, groom.looks.empty() ? "" : " -D VARIED");
+    std::string options = fmt::format("-D NODES={}{}", groom.nodes, groom.looks.empty() ? "" : " -D VARIED");
     if (!strands.values.empty())
     {
         options += " -D VALUES";

@@ -53,8 +53,8 @@ class Rasteriser
     float* solid_depth(int width, int height);
     RasterPicture draw(const RasterStrands& strands, const RasterView& view);
 
-    void reload_kernels() { kernels_.clear(); }
     const Device& device() const { return device_; }
+    const Buffers& buffers() const { return buffers_; } // for tests: by kernel argument
     // Of the last draw().
     int batches() const { return batches_; }
     size_t pieces() const { return pieces_; } // in tiles

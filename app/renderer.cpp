@@ -1,5 +1,6 @@
 #include "app/renderer.h"
 
+#include "app/rasteriser.h"
 #include "sim/error.h"
 
 #include <SDL.h>
@@ -223,9 +224,8 @@ Renderer::~Renderer()
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture :
-         {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_, braid_texture_,
-          rastered_texture_})
+    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_,
+                           braid_texture_, rastered_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -357,16 +357,26 @@ void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT,
                  rasteriser_->solid_depth(view.width, view.height));
-    const RasterPicture picture = rasteriser_->draw(rastered_, view);
+    const RasterPicture picture = rasteriser_->draw(*rastered_, view);
     if (picture.width == 0)
         return;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, rastered_texture_);
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    if (rastered_size_ != glm::ivec2(view.width, view.height))
+    {
+        rastered_size_ = {view.width, view.height};
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, view.width, view.height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, view.width, view.height, 0, GL_RGBA, GL_HALF_FLOAT,
-                 picture.pixels.as<char>());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, view.width);
+    glPixelStorei(GL_UNPACK_SKIP_PIXELS, picture.x);
+    glPixelStorei(GL_UNPACK_SKIP_ROWS, picture.y);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, picture.x, picture.y, picture.width, picture.height, GL_RGBA, GL_HALF_FLOAT,
+                    picture.pixels.as<char>());
+    for (const GLenum back : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
+        glPixelStorei(back, 0);
     glViewport(0, 0, view.width, view.height);
     glEnable(GL_SCISSOR_TEST);
     glScissor(picture.x, picture.y, picture.width, picture.height);

@@ -1,7 +1,6 @@
 #pragma once
 #include "app/gl.h"
 #include "app/image.h"
-#include "app/rasteriser.h"
 #include "app/strand_colors.h"
 #include "sim/simulation.h"
 
@@ -13,6 +12,10 @@
 
 namespace coif
 {
+
+class Rasteriser;
+struct RasterStrands;
+struct RasterView;
 
 // From where a picture is taken, in the world.
 struct Camera
@@ -45,8 +48,8 @@ struct FrameInput
 // Takes the views; waits for the device.
 FrameInput frame_input(const Simulation& simulation, const Camera& camera);
 
-// Three values a mixed strand for kernels/ribbon.h's Braid, or none: its place in its plait and m behind the ring at its
-// root; m behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
+// Three values a mixed strand for kernels/ribbon.h's Braid, or none: its place in its plait and m behind the ring at
+// its root; m behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
 std::vector<float4> braid_values(const Groom& groom);
 
 // What can draw the strands, as render.method lists it.
@@ -110,9 +113,10 @@ class Renderer
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Rasteriser> rasteriser_; // none until it is asked for
-    RasterStrands rastered_;
-    Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
+    std::unique_ptr<Rasteriser> rasteriser_;  // none until it is asked for
+    std::unique_ptr<RasterStrands> rastered_; // what it draws
+    glm::ivec2 rastered_size_{0};             // of its texture
+    Target scene_, single_, sum_;             // multisampled or not; one sample a pixel; all samples added up
     GLuint frame_block_ = 0, params_block_ = 0;
     GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;

@@ -1,6 +1,7 @@
 // What the renderer sends to the driver before it draws: parameters, grids, the head, the strands and their order.
 #include "app/renderer.h"
 
+#include "app/rasteriser.h"
 #include "sim/wave.h"
 
 #include <glm/geometric.hpp>
@@ -249,11 +250,12 @@ void Renderer::upload(const FrameInput& frame)
         const Solver& solver = frame.simulation->solver();
         if (!rasteriser_ || &rasteriser_->device() != &solver.device())
             rasteriser_ = std::make_unique<Rasteriser>(solver.device());
-        rastered_ = {&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}};
-        for (int i = 0; i < RAMP && !rastered_.values.empty(); ++i)
+        rastered_ = std::make_unique<RasterStrands>(
+            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}});
+        for (int i = 0; i < RAMP && !rastered_->values.empty(); ++i)
         {
             const glm::vec3 color = ramp_color((float(i) + 0.5f) / float(RAMP));
-            rastered_.ramp.push_back(F4(color.x, color.y, color.z, 1.0f));
+            rastered_->ramp.push_back(F4(color.x, color.y, color.z, 1.0f));
         }
     }
     else

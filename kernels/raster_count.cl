@@ -18,7 +18,7 @@ kernel void raster_count(global const float* points, global int* counts, constan
     for (int i = chunk * per_chunk; i < end; ++i)
     {
         const float8 b = vload8(i + 1, points);
-        const int4 at = piece_tiles(a, b, frame);
+        const int4 at = piece_tiles(a, b, piece_bounds(a, b), frame);
         for (int y = at.z; y <= at.w; ++y)
             for (int x = at.x; x <= at.y; ++x)
                 ++own[y * frame->tiles_x + x];

@@ -16,12 +16,16 @@ kernel void raster_fill(global const float* points, global int* counts, global c
     for (int i = chunk * per_chunk; i < end; ++i)
     {
         const float8 b = vload8(i + 1, points);
-        const int4 at = piece_tiles(a, b, frame);
-        const RasterPiece piece = {as_uint(0.5f * (a.s2 + b.s2)), i};
+        const float4 bounds = piece_bounds(a, b);
+        const int4 at = piece_tiles(a, b, bounds, frame);
+        RasterPiece piece;
+        piece.depth = as_uint(0.5f * (a.s2 + b.s2));
+        piece.point = i;
         for (int y = at.z; y <= at.w; ++y)
             for (int x = at.x; x <= at.y; ++x)
             {
                 const int tile = y * frame->tiles_x + x;
+                piece.cells = piece_cells(bounds, x * TILE, y * TILE);
                 binned[tile_begin[tile] + own[tile]++] = piece;
             }
         a = b;

@@ -53,8 +53,7 @@ typedef struct RibbonLook
 } RibbonLook;
 
 static inline RibbonLook look_of(int strand, global const StrandLook* looks, global const DrawnStrand* strands,
-                                 global const float4* braids, constant HairParams* params,
-                                 constant RasterFrame* frame)
+                                 global const float4* braids, constant HairParams* params, constant RasterFrame* frame)
 {
     RibbonLook look;
 #ifdef VARIED

@@ -121,8 +121,8 @@ CURVE_FUNCTION REAL brightness_of(WITH_STYLE int seed)
     return exp(STYLE(look_variation) * 2.0f * (strand_random(seed, RANDOM_BRIGHTNESS) - 0.5f));
 }
 
-// Kajiya-Kay: a fibre scatters light as a thin cylinder does, so only angles to its tangent count (Kajiya, Kay. Rendering
-// fur with three dimensional textures. 1989; thesis eq. 5.9 and 5.10, with the exponents of listing A.2).
+// Kajiya-Kay: a fibre scatters light as a thin cylinder does, so only angles to its tangent count (Kajiya, Kay.
+// Rendering fur with three dimensional textures. 1989; thesis eq. 5.9 and 5.10, with the exponents of listing A.2).
 //
 // Cosines of the angles to the light and to the eye; the share of the light that reaches the place. Gives what is
 // ambient (x), diffuse (y) and specular (z).
@@ -131,9 +131,9 @@ CURVE_FUNCTION REAL4 kajiya_kay(WITH_STYLE REAL to_light, REAL to_eye, REAL ligh
     REAL tl = clamp(to_light, -1.0f, 1.0f), te = clamp(to_eye, -1.0f, 1.0f);
     REAL sin_tl = sqrt(1.0f - tl * tl), sin_te = sqrt(1.0f - te * te);
     REAL diffuse = STYLE(look_diffuse) * POWER(sin_tl, STYLE(look_diffuse_exponent));
-    // Listing A.2 measures the eye's angle from the other end of the tangent: the cone of reflection has its mirror there.
-    REAL specular =
-        STYLE(look_specular) * POWER(max(sin_tl * sin_te - tl * te, 0.0f), STYLE(look_specular_exponent));
+    // Listing A.2 measures the eye's angle from the other end of the tangent: the cone of reflection has its mirror
+    // there.
+    REAL specular = STYLE(look_specular) * POWER(max(sin_tl * sin_te - tl * te, 0.0f), STYLE(look_specular_exponent));
     // Hair that hides from the light hides from the surroundings too, though far less: they come in from all sides.
     REAL hidden = 0.4f, open = 1.0f;
     return FLOAT4(STYLE(look_ambient) * mix(hidden, open, POWER(light, 0.35f)), diffuse, specular, 0.0f);

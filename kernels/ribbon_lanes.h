@@ -48,7 +48,7 @@ static inline real wave_at(global const float* table, int side, real place)
     struct name
 #define WITH_STYLE constant HairParams *params, global const float *wave_table,
 #define STYLE(name) params->name
-#define POWER(x, y) powr(x, (real)(y))
+#define POWER(x, y) exp2((y)*log2(x)) // half the time of powr(), and x is no less than 0
 #define WAVE_NORMAL(place) wave_at(wave_table, 0, place)
 #define WAVE_BINORMAL(place) wave_at(wave_table, 1, place)
 #include "ribbon.h"

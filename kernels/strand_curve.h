@@ -1,8 +1,9 @@
 // The curve that is drawn through a strand's nodes: smoothing, what is laid on it, profiles, and what differs from
 // strand to strand. Read by OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those
 // names), so that the two never hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more.
-// No local is const, which in GLSL 1.50 asks for a constant expression. REAL, WHOLE and BITS are float, int and uint, or
-// as many of them as there are lanes, and REAL4 four REALs: what they hold may differ along a strand, all else does not.
+// No local is const, which in GLSL 1.50 asks for a constant expression. REAL, WHOLE and BITS are float, int and uint,
+// or as many of them as there are lanes, and REAL4 four REALs: what they hold may differ along a strand, all else does
+// not.
 #ifndef COIF_STRAND_CURVE_H
 #define COIF_STRAND_CURVE_H
 

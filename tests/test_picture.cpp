@@ -223,7 +223,8 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
     for (const ParamInfo& info : param_table())
     {
         const bool listed = std::count(in_shaders_only.begin(), in_shaders_only.end(), info.path()) > 0;
-        if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample")
+        if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample" ||
+            info.path() == "render.method")
             continue;
         Hairstyle style = small_style(base);
         float now[kMostNumbers];
