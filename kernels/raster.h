@@ -82,7 +82,7 @@ static inline float4 piece_bounds(float8 a, float8 b)
 {
     // As far out as half its width and half a pixel. Across a steep piece it ends where its corners are, which lie
     // further out where the strand turns.
-    const float out = 0.5f * max(max(a.s3, b.s3), 1.0f) + 0.5f;
+    const float out = 0.5f * max(a.s3, b.s3) + 0.5f;
     const float dx = b.s0 - a.s0, dy = b.s1 - a.s1, size = sqrt(dx * dx + dy * dy);
     const float over_a = size * out / max(fabs(a.s6 * dx + a.s7 * dy), 0.1f * size + 1e-9f);
     const float over_b = size * out / max(fabs(b.s6 * dx + b.s7 * dy), 0.1f * size + 1e-9f);

@@ -2,8 +2,8 @@
 // What is solid hides what lies behind it. Work-item: BAND rows of a tile; lanes: a square of pixels.
 //
 // A piece is a ribbon between two points; where the next begins, across the direction that both have there, is the same
-// to the bit for either, so that no pixel of a strand is covered twice or missed. A ribbon is never thinner than a
-// pixel: below that its coverage shrinks instead, and half a pixel on either side lets the edges fade.
+// to the bit for either, so that no pixel of a strand is covered twice or missed. Along whichever of rows and columns
+// cross it, a ribbon covers each pixel by what it shares with it, which adds up to its area however thin it is.
 #include "raster.h"
 
 #if WIDTH == 1
@@ -164,8 +164,7 @@ static inline bool is_seen(const Canvas* canvas, int cells, int band)
 static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int x0, int y0)
 {
     const float ax = a.s0 - (float)x0, ay = a.s1 - (float)y0, bx = b.s0 - (float)x0, by = b.s1 - (float)y0;
-    const Span half_drawn = span(0.5f * max(a.s3, 1.0f) + 0.5f, 0.5f * max(b.s3, 1.0f) + 0.5f);
-    const float reach = max(half_drawn.at, half_drawn.at + half_drawn.more);
+    const float reach = 0.5f * max(a.s3, b.s3) + 0.5f;
     const float low_x = min(ax, bx) - reach, high_x = max(ax, bx) + reach;
     const ulong columns = squares_between(low_x, high_x);
     const float dx = bx - ax, dy = by - ay, squared = dx * dx + dy * dy;
@@ -174,7 +173,8 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
     const float size = sqrt(squared), inverse = 1.0f / size, nx = -dy * inverse, ny = dx * inverse;
     const uint rg_a = as_uint(a.s4), rg_b = as_uint(b.s4), bo_a = as_uint(a.s5), bo_b = as_uint(b.s5);
     const bool root = rg_a & MARK_ROOT, tip = bo_b & MARK_TIP;
-    const Span cover = span(from_half(bo_a >> 16) * min(a.s3, 1.0f), from_half(bo_b >> 16) * min(b.s3, 1.0f));
+    const float crossing = 1.0f / max(fabs(nx), fabs(ny)); // a row or column, for a pixel across
+    const Span width = span(a.s3 * crossing, b.s3 * crossing), opacity = span(from_half(bo_a >> 16), from_half(bo_b >> 16));
     const Span red = span(from_half(rg_a), from_half(rg_b)), green = span(from_half(rg_a >> 16), from_half(rg_b >> 16)),
                blue = span(from_half(bo_a), from_half(bo_b)), depth = span(a.s2, b.s2);
     const bool steep = fabs(nx) > 1e-3f;
@@ -195,8 +195,10 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
             const real right_a = x - ax, up_from_a = y - ay, right_b = x - bx, up_from_b = y - by;
             const real along = right_a * dx + up_from_a * dy;
             const real u = clamp(along * (inverse * inverse), 0.0f, 1.0f);
-            const real off = fabs(right_a * nx + up_from_a * ny);
-            real alpha = clamp(half_drawn.at + half_drawn.more * u - off, 0.0f, 1.0f) * (cover.at + cover.more * u);
+            const real off = fabs(right_a * (nx * crossing) + up_from_a * (ny * crossing));
+            const real wide_here = width.at + width.more * u;
+            real alpha = clamp(0.5f * wide_here + 0.5f - off, (real)(0.0f), min(wide_here, 1.0f)) *
+                         (opacity.at + opacity.more * u);
             if (root)
                 alpha *= clamp(along * inverse + 0.5f, 0.0f, 1.0f);
             else

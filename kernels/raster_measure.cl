@@ -43,6 +43,7 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
 
     const float4 cw = frame->clip_w, eye = frame->eye;
     const float half_width = 0.5f * (float)frame->width, half_height = 0.5f * (float)frame->height;
+    const float slanted = 1.0f + eye.w * (half_width + half_height); // what lies aside moves by what it comes nearer too
     int run = 0, points = 0; // does the curve go on; how many points are there up to here
     for (int first = 1; first < NODES - 1; first += WIDTH)
     {
@@ -71,15 +72,16 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
             stray += braid_stray(look.braid, segment, at * (1.0f / (float)(NODES - 2))) / pixel;
         const real wanted = ceil(sqrt(stray * (1.0f / BEND_TOLERANCE)));
 
-        // The curve bulges out of its chord by no more than its ends' slopes let it.
+        // A third of the way its Bezier points lie a sixth of the second differences off the chord (Bourke's cubic goes
+        // further), and the curve lies between them and its ends.
         const real w1 = clip_of(cw, x1, y1, z1), w2 = clip_of(cw, x2, y2, z2);
-        const real room = bulge + most, nearest = fmin(w1, w2) - room;
+        const real room = (params->smoothing_curve == CURVE_CUBIC ? bulge : bend * (1.0f / 6.0f)) + most, nearest = fmin(w1, w2) - room;
         const real i1 = 1.0f / w1, i2 = 1.0f / w2;
         const real sx1 = half_width + half_width * clip_of(frame->clip_x, x1, y1, z1) * i1;
         const real sx2 = half_width + half_width * clip_of(frame->clip_x, x2, y2, z2) * i2;
         const real sy1 = half_height + half_height * clip_of(frame->clip_y, x1, y1, z1) * i1;
         const real sy2 = half_height + half_height * clip_of(frame->clip_y, x2, y2, z2) * i2;
-        const real about = 1.5f * room / (eye.w * fmax(nearest, (real)(frame->near))) + 2.0f;
+        const real about = slanted * room / (eye.w * fmax(nearest, (real)(frame->near))) + 2.0f;
         const whole in_front = nearest > frame->near;
         const real low_x = fmin(sx1, sx2) - about, high_x = fmax(sx1, sx2) + about;
         const real low_y = fmin(sy1, sy2) - about, high_y = fmax(sy1, sy2) + about;

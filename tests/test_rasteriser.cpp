@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numeric>
 
 namespace coif
 {
@@ -190,11 +191,9 @@ TEST(Rasteriser, ARibbonCoversItsExactArea)
             Strand strand = straight(glm::vec2(middle - half), glm::vec2(middle + half));
             strand.width = float(width) * kPixel;
             const Pixels pixels = Scene(test_device(), {strand}).draw();
-            // Where it runs along the pixels its edges fade exactly; slanted, a pixel's square is taken for a disc.
+            // But for its ends, which fade on their own.
             const double area = 2.0 * 41.3 * width;
-            EXPECT_NEAR(pixels.alpha_sum(), area, 0.012 * area + 0.05) << degrees << " degrees, " << width << " pixels";
-            if (width < 1.0)
-                continue; // drawn a pixel wide and fainter
+            EXPECT_NEAR(pixels.alpha_sum(), area, 0.006 * area + 0.05) << degrees << " degrees, " << width << " pixels";
             const glm::dvec2 a = middle - half + glm::dvec2(0.5 * kWidth, 0.5 * kHeight), b = a + 2.0 * half;
             double worst = 0.0;
             for (int y = 0; y < kHeight; ++y)
@@ -387,6 +386,7 @@ TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
     Scene scene(test_device(), {strand}, params);
     // The scene's looks have no curls of their own; without looks the style's hold.
     const HairParams style = device_params(params);
+    int fewest = 0;
     for (const bool varied : {true, false})
     {
         if (!varied)
@@ -401,10 +401,12 @@ TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
             read<unsigned char>(device, scene.rasteriser.buffers().at("pieces"), kNodes);
         std::vector<glm::dvec3> places;
         std::vector<double> along;
+        const int total = std::accumulate(cuts.begin() + 1, cuts.end() - 1, 0);
+        EXPECT_GT(total, fewest) << "curls ask for more pieces";
+        fewest = total;
         for (int k = 1; k < kNodes - 1; ++k)
         {
             ASSERT_GT(cuts[size_t(k)], 0);
-            EXPECT_EQ(cuts[size_t(k)] > 3, !varied) << "curls ask for more pieces";
             for (int i = k == 1 ? 0 : 1; i <= cuts[size_t(k)]; ++i)
             {
                 const double t = double(float(i) / float(cuts[size_t(k)]));
@@ -471,8 +473,9 @@ TEST(Rasteriser, NeitherWidthNorSizeBreaksIt)
 {
     std::vector<Strand> strands = layers(6);
     strands[0].width = 100.0f; // wider than the picture by far
+    strands[0].opacity = 1.0f;
     strands[0].nodes = straight({-10, 0}, {10, 0}, -0.6f).nodes;
-    EXPECT_GT(Scene(test_device(), strands).draw().alpha_sum(), 0.9 * kWidth * 20.0);
+    EXPECT_GT(Scene(test_device(), strands).draw().alpha_sum(), 0.9 * 20.0 * kHeight);
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 97), glm::ivec2(2048, 3)})
     {
         RasterView view = far_view();
