@@ -3,7 +3,9 @@
 #include "sim/error.h"
 #include "sim/wave.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -24,7 +26,18 @@ static float4 row_of(const glm::mat4& matrix, int row)
     return F4(r.x, r.y, r.z, r.w);
 }
 
-static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view, int chunk_count)
+// Of all strands, that are drawn. Hangs on how far the head's middle is, and on nothing that jumps.
+static float kept_share(const RasterStrands& strands, const RasterView& view, float least_width)
+{
+    const Solver& solver = *strands.solver;
+    const glm::vec3 center(solver.head().turn * glm::dvec3(solver.groom().center));
+    const float pixel = view.pixel * std::max(glm::distance(view.eye, center), view.near); // m
+    const float4 along = strands.params.look_width_along;
+    const float width = strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w);
+    return least_width > 0.0f ? std::clamp(width / (least_width * pixel), 0.01f, 1.0f) : 1.0f;
+}
+
+static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view, int chunk_count, float least_width)
 {
     RasterFrame frame = {};
     frame.clip_x = row_of(view.view_projection, 0);
@@ -35,7 +48,7 @@ static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view
     frame.near = view.near;
     frame.depth_at_infinity = 0.5f + 0.5f * (view.far + view.near) / (view.far - view.near);
     frame.depth_over = -view.far * view.near / (view.far - view.near);
-    frame.kept = 1.0f;
+    frame.kept = kept_share(strands, view, least_width);
     frame.width = view.width;
     frame.height = view.height;
     frame.tiles_x = (view.width + TILE - 1) / TILE;
@@ -137,7 +150,7 @@ try
     pieces_ = 0;
     low_ = glm::ivec2(view.width, view.height);
     high_ = glm::ivec2(0);
-    RasterFrame frame = frame_of(strands, view, chunks(device_));
+    RasterFrame frame = frame_of(strands, view, chunks(device_), least_width);
     if (frame.strands == 0)
         return {};
     const Groom& groom = strands.solver->groom();

@@ -60,6 +60,8 @@ class Rasteriser
     size_t pieces() const { return pieces_; } // in tiles
     PassTimes take_times();
 
+    // Strands that are thinner than so many pixels on the whole are drawn fewer and as much wider. 0: never.
+    float least_width = 0.25f;
     // Numbers that one batch may hold; tests make them small.
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -488,6 +489,38 @@ TEST(Rasteriser, NeitherWidthNorSizeBreaksIt)
     EXPECT_EQ(none.draw().alpha_sum(), 0.0);
 }
 
+// From ever further away fewer strands stand for all; what they cover stays, and none comes or goes at once.
+TEST(Rasteriser, ThinStrandsAreDrawnFewerAndWider)
+{
+    HairParams params = plain_params();
+    params.look_width = 0.02f * kPixel;
+    std::vector<Strand> strands = layers(2000);
+    for (Strand& strand : strands)
+    {
+        strand.width = params.look_width;
+        strand.opacity = 0.2f;
+    }
+    Scene scene(test_device(), strands, params);
+    scene.rasteriser.least_width = 0.0f;
+    const double all = scene.draw().alpha_sum();
+    const size_t pieces_of_all = scene.rasteriser.pieces();
+    EXPECT_GT(all, 100.0);
+    Pixels before;
+    for (int i = 0; i <= 40; ++i)
+    {
+        scene.rasteriser.least_width = 0.05f * (1.0f + 0.01f * float(i)); // 40 % of them and fewer
+        Pixels fewer = scene.draw();
+        EXPECT_NEAR(fewer.alpha_sum(), all, 0.06 * all) << i;
+        EXPECT_LT(double(scene.rasteriser.pieces()), 0.5 * double(pieces_of_all)) << i;
+        if (i > 0)
+        {
+            // One that came or went at once would change its pixels by its opacity times 0.05 pixels.
+            EXPECT_LT(greatest_difference(fewer, before), 0.4 * 0.2 * 0.05) << i;
+        }
+        before = std::move(fewer);
+    }
+}
+
 // The reference has 16 samples a pixel: four times as wide and as high, by the geometry shader.
 TEST(Rasteriser, ItsPicturesAreNoWorseThanTheGeometryShaders)
 {
@@ -517,8 +550,16 @@ TEST(Rasteriser, ItsPicturesAreNoWorseThanTheGeometryShaders)
     EXPECT_GE(of_rasteriser, of_geometry);
     EXPECT_GT(of_rasteriser, 0.8);
     EXPECT_TRUE(renderer.method_of(style.params) == (is_software_renderer() ? BY_OPENCL : BY_GEOMETRY));
-    // Values told by colours, both kinds of multisampling, and guides among the strands.
-    for (const char* set : {"render.colors=kind", "render.show=both", "render.multisample=4x", "look.opacity=0"})
+    // Guides lie among the strands, seen through what is open before them.
+    frame.params.render_show = 2;
+    const Image guides = picture(BY_OPENCL, 1, 1);
+    const Mask shown = changed_pixels(guides, rasterised, 24);
+    EXPECT_GT(std::ranges::count(shown, true), 200);
+    frame.params.render_show = 1;
+    const Mask alone = changed_pixels(picture(BY_OPENCL, 1, 1), guides, 24);
+    EXPECT_GT(std::ranges::count(alone, true), 2000) << "there is still hair";
+    // Values told by colours, and multisampling of what GL draws.
+    for (const char* set : {"render.colors=kind", "render.multisample=4x", "look.opacity=0"})
     {
         Hairstyle other = style;
         assign(other, set);
