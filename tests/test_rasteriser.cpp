@@ -369,7 +369,7 @@ TEST(Rasteriser, AllWidthsDrawTheSame)
     }
 }
 
-// Points against doubles: Catmull-Rom, curls laid on, projection, width and light.
+// Points against doubles: Catmull-Rom, waves, curls and frizz laid on, projection, width and light.
 TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
 {
     HairParams params = plain_params();
@@ -379,6 +379,10 @@ TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
     params.smoothing_subdivisions = 7;
     params.curl_radius = 0.006f;
     params.curl_pitch = 0.05f;
+    params.wave_normal_amplitude = 0.003f;
+    params.wave_binormal_amplitude = 0.002f;
+    params.wave_normal_randomness = params.wave_binormal_randomness = 0.6f;
+    params.frizz_amount = 0.002f;
     Strand strand;
     Random random(5);
     for (int k = 0; k < kNodes; ++k)
@@ -387,6 +391,14 @@ TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
     Scene scene(test_device(), {strand}, params);
     // The scene's looks have no curls of their own; without looks the style's hold.
     const HairParams style = device_params(params);
+    const std::vector<float> table = wave_table(params);
+    const auto wave = [&](size_t side, double place) // linear between its samples, which begin again
+    {
+        const double at = (place - std::floor(place)) * kWaveSamples - 0.5, below = std::floor(at);
+        const auto sample = [&](double i)
+        { return double(table[2 * ((size_t(i) + kWaveSamples) % kWaveSamples) + side]); };
+        return glm::mix(sample(below + kWaveSamples), sample(below + 1.0 + kWaveSamples), at - below);
+    };
     int fewest = 0;
     for (const bool varied : {true, false})
     {
@@ -433,8 +445,18 @@ TEST(Rasteriser, PointsAreWhereDoublesHaveThem)
                     const oracle::Across by = oracle::curl_at(
                         seed, double(style.curl_phase) * oracle::strand_random(seed, 5),
                         glm::mix(length[0], length[1], t), style.curl_pitch, style.curl_variation, style.curl_hand);
-                    p += double(style.curl_radius) * onset * onset * (3.0 - 2.0 * onset) *
-                         (by.normal * normal + by.binormal * glm::cross(tangent, normal));
+                    const double far = glm::mix(length[0], length[1], t);
+                    const double curl = double(style.curl_radius) * onset * onset * (3.0 - 2.0 * onset);
+                    const oracle::Across frizz = oracle::frizz_at(seed, far, style.frizz_frequency);
+                    const double frizzed = double(style.frizz_amount) * at * (2.0 - at);
+                    const double across[2] = {
+                        curl * by.normal + frizzed * frizz.normal +
+                            double(style.wave_normal_amplitude) * oracle::wave_onset(at, style.wave_normal_begin) *
+                                wave(0, oracle::wave_place(seed, far, style.wave_normal_frequency, 0.6f)),
+                        curl * by.binormal + frizzed * frizz.binormal +
+                            double(style.wave_binormal_amplitude) * oracle::wave_onset(at, style.wave_binormal_begin) *
+                                wave(1, oracle::wave_place(seed, far, style.wave_binormal_frequency, 0.6f))};
+                    p += across[0] * normal + across[1] * glm::cross(tangent, normal);
                 }
                 places.push_back(p);
                 along.push_back(at);
