@@ -387,15 +387,17 @@ bool Editor::frame()
                 health_ = measure_health(simulation_->solver(), style_.params, false);
             note_resets();
             const int wide = picture_width() * pixels_wide / std::max(width, 1);
-            const FrameInput input = frame_input(*simulation_, camera_);
-            renderer_->show(input, wide, pixels_high);
+            FrameInput input = frame_input(*simulation_, camera_);
+            trial_.show(*renderer_, input, wide, pixels_high);
             legend_.title = input.colors.title;
             legend_.readings = input.colors.readings;
             if (!beside_.simulation)
                 return;
             beside_.simulation->solver().draw();
             beside_.simulation->solver().take_times();
-            beside_.renderer->show(frame_input(*beside_.simulation, camera_), wide, pixels_high, wide);
+            FrameInput other = frame_input(*beside_.simulation, camera_);
+            trial_.apply(other);
+            beside_.renderer->show(other, wide, pixels_high, wide);
         });
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/brush.h"
 #include "app/history.h"
+#include "app/method_trial.h"
 #include "app/options.h"
 #include "app/panel.h"
 #include "app/recovery.h"
@@ -184,6 +185,7 @@ class Editor
     std::unique_ptr<Waiting> waiting_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
+    MethodTrial trial_;                          // of the ways to draw strands
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
     Autosave autosave_;
     std::vector<Recovery> recoveries_; // that are still offered

@@ -291,6 +291,7 @@ void Editor::draw_status()
         ImGui::TextDisabled("%s", device_.name.c_str());
         ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
+    ImGui::TextDisabled("%s", trial_.said(style_.params).c_str());
     const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
     if (!simulation_->quality().said.empty())

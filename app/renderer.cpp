@@ -1,5 +1,6 @@
 #include "app/renderer.h"
 
+#include "app/rasteriser.h"
 #include "sim/error.h"
 
 #include <SDL.h>
@@ -188,14 +189,16 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_REPEAT);
 
     std::vector<glm::vec3> ramp;
-    for (int i = 0; i < 64; ++i)
-        ramp.push_back(ramp_color((float(i) + 0.5f) / 64.0f));
+    for (int i = 0; i < RAMP; ++i)
+        ramp.push_back(ramp_color((float(i) + 0.5f) / float(RAMP)));
     glGenTextures(1, &ramp_texture_);
     glBindTexture(GL_TEXTURE_1D, ramp_texture_);
     glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB16F, GLsizei(ramp.size()), 0, GL_RGB, GL_FLOAT, ramp.data());
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+
+    glGenTextures(1, &rastered_texture_);
 
     const int nobody = 0;
     glGenBuffers(1, &leader_buffer_);
@@ -221,19 +224,31 @@ Renderer::~Renderer()
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
-    for (GLuint texture :
-         {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_, braid_texture_})
+    for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_,
+                           braid_texture_, rastered_texture_})
         glDeleteTextures(1, &texture);
 }
 
-void Renderer::reload_shaders() { programs_ = std::make_unique<Programs>(shader_folder_); }
+void Renderer::reload_shaders()
+{
+    programs_ = std::make_unique<Programs>(shader_folder_);
+    rasteriser_.reset(); // its kernels are compiled anew when they are next asked for
+}
+
+Method Renderer::method_of(const HairParams& params)
+{
+    if (params.render_method != BY_ITSELF)
+        return Method(params.render_method);
+    return is_software_renderer() ? BY_OPENCL : BY_GEOMETRY;
+}
 
 std::string Renderer::name() const { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
 
 // A texture of one sample a pixel, or a renderbuffer of several.
-void Renderer::prepare(Target& target, int width, int height, int samples, GLenum format, bool with_depth)
+void Renderer::prepare(Target& target, int width, int height, int samples, GLenum format, GLenum depth_format)
 {
-    if (target.width == width && target.height == height && target.samples == samples)
+    if (target.width == width && target.height == height && target.samples == samples &&
+        target.depth_format == depth_format)
         return;
     glDeleteFramebuffers(1, &target.framebuffer);
     glDeleteRenderbuffers(1, &target.color);
@@ -258,11 +273,11 @@ void Renderer::prepare(Target& target, int width, int height, int samples, GLenu
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
     }
-    if (with_depth)
+    if (depth_format)
     {
         glGenRenderbuffers(1, &target.depth);
         glBindRenderbuffer(GL_RENDERBUFFER, target.depth);
-        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, depth_format, width, height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth);
     }
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -270,6 +285,7 @@ void Renderer::prepare(Target& target, int width, int height, int samples, GLenu
     target.width = width;
     target.height = height;
     target.samples = samples;
+    target.depth_format = depth_format;
 }
 
 void Renderer::draw_solids(const FrameInput& frame)
@@ -332,6 +348,47 @@ void Renderer::draw_strands(const FrameInput& frame)
     glBindVertexArray(strand_array_);
     glDrawElements(GL_LINES_ADJACENCY, strand_index_count_, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_BLEND);
+}
+
+// What the rasteriser makes of the strands, with the depth of all that has been drawn so far, over it.
+void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                 rasteriser_->solid_depth(view.width, view.height));
+    const RasterPicture picture = rasteriser_->draw(*rastered_, view);
+    if (picture.width == 0)
+        return;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, rastered_texture_);
+    if (rastered_size_ != glm::ivec2(view.width, view.height))
+    {
+        rastered_size_ = {view.width, view.height};
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, view.width, view.height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, view.width);
+    glPixelStorei(GL_UNPACK_SKIP_PIXELS, picture.x);
+    glPixelStorei(GL_UNPACK_SKIP_ROWS, picture.y);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, picture.x, picture.y, picture.width, picture.height, GL_RGBA, GL_HALF_FLOAT,
+                    picture.pixels.as<char>());
+    for (const GLenum back : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
+        glPixelStorei(back, 0);
+    glViewport(0, 0, view.width, view.height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(picture.x, picture.y, picture.width, picture.height);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glUseProgram(programs_->add.id());
+    glUniform1i(programs_->add.uniform("picture"), 0);
+    glUniform1f(programs_->add.uniform("share"), 1.0f);
+    glBindVertexArray(empty_array_);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::draw_guides(const FrameInput& frame)
@@ -397,7 +454,8 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     }
     glEnable(GL_DEPTH_TEST);
     draw_solids(frame);
-    if (frame.params.render_show != 1)
+    const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
+    if (strands && !rasterised)
         draw_strands(frame);
     if (frame.params.render_show != 0)
         draw_guides(frame);
@@ -406,9 +464,12 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, scene_.framebuffer);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.framebuffer);
-        glBlitFramebuffer(0, 0, part.width, part.height, 0, 0, part.width, part.height, GL_COLOR_BUFFER_BIT,
-                          GL_NEAREST);
+        glBlitFramebuffer(0, 0, part.width, part.height, 0, 0, part.width, part.height,
+                          GL_COLOR_BUFFER_BIT | (rasterised ? GL_DEPTH_BUFFER_BIT : 0), GL_NEAREST);
     }
+    if (strands && rasterised)
+        compose_strands({block.view_projection, eye, pixel, near, far, part.width, part.height},
+                        scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
 }
 
 // Samples of a choice: auto, off, 2x, 4x, 8x, within what the driver gives.
@@ -431,16 +492,18 @@ static glm::vec2 jitter_of(int sample)
 GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
 {
     const int samples = multisamples(frame.params.render_multisample);
-    prepare(scene_, part.width, part.height, samples, GL_RGBA16F, true);
+    const bool depth_is_read = method_of(frame.params) == BY_OPENCL;
+    const GLenum depth_format = depth_is_read ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24;
+    prepare(scene_, part.width, part.height, samples, GL_RGBA16F, depth_format);
     if (samples > 0)
-        prepare(single_, part.width, part.height, 0, GL_RGBA16F, false);
+        prepare(single_, part.width, part.height, 0, GL_RGBA16F, depth_is_read ? depth_format : 0);
     const GLuint one_sample = samples > 0 ? single_.texture : scene_.texture;
     if (frame.samples == 1)
     {
         draw(frame, whole_width, whole_height, part, glm::vec2(0.0f));
         return one_sample;
     }
-    prepare(sum_, part.width, part.height, 0, GL_RGBA32F, false);
+    prepare(sum_, part.width, part.height, 0, GL_RGBA32F);
     glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -496,7 +559,7 @@ Image Renderer::picture(const FrameInput& frame, int width, int height)
         {
             const Part part = {x, y, std::min(most, width - x), std::min(most, height - y)};
             const GLuint texture = accumulate(frame, width, height, part);
-            prepare(bytes, part.width, part.height, 0, GL_RGBA8, false);
+            prepare(bytes, part.width, part.height, 0, GL_RGBA8);
             resolve(texture, bytes.framebuffer, part);
             pixels.resize(size_t(4) * size_t(part.width) * size_t(part.height));
             glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -13,6 +13,10 @@
 namespace coif
 {
 
+class Rasteriser;
+struct RasterStrands;
+struct RasterView;
+
 // From where a picture is taken, in the world.
 struct Camera
 {
@@ -44,6 +48,18 @@ struct FrameInput
 // Takes the views; waits for the device.
 FrameInput frame_input(const Simulation& simulation, const Camera& camera);
 
+// Three values a mixed strand for kernels/ribbon.h's Braid, or none: its place in its plait and m behind the ring at
+// its root; m behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
+std::vector<float4> braid_values(const Groom& groom);
+
+// What can draw the strands, as render.method lists it.
+enum Method
+{
+    BY_ITSELF,
+    BY_GEOMETRY,
+    BY_OPENCL
+};
+
 class Renderer
 {
   public:
@@ -60,6 +76,9 @@ class Renderer
     void reload_shaders();
     // What the driver calls itself.
     std::string name() const;
+    Rasteriser* rasteriser() { return rasteriser_.get(); } // none before it has drawn
+    // What draws the strands where that is left to a rule: the geometry shader where there is a graphics card for it.
+    static Method method_of(const HairParams& params);
 
   private:
     struct Programs;
@@ -67,6 +86,7 @@ class Renderer
     {
         GLuint framebuffer = 0, color = 0, depth = 0, texture = 0;
         int width = 0, height = 0, samples = -1;
+        GLenum depth_format = 0;
     };
     struct Part // of the whole picture
     {
@@ -84,15 +104,19 @@ class Renderer
     void draw_solids(const FrameInput& frame);
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     void draw_strands(const FrameInput& frame);
+    void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
     // All samples of a part, averaged. Returns the texture that holds them.
     GLuint accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
     void resolve(GLuint texture, GLuint framebuffer, Part part, int left = 0);
-    void prepare(Target& target, int width, int height, int samples, GLenum format, bool with_depth);
+    void prepare(Target& target, int width, int height, int samples, GLenum format, GLenum depth_format = 0);
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
+    std::unique_ptr<Rasteriser> rasteriser_;  // none until it is asked for
+    std::unique_ptr<RasterStrands> rastered_; // what it draws
+    glm::ivec2 rastered_size_{0};             // of its texture
+    Target scene_, single_, sum_;             // multisampled or not; one sample a pixel; all samples added up
     GLuint frame_block_ = 0, params_block_ = 0;
     GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
@@ -101,7 +125,7 @@ class Renderer
     GLint braided_ = 0; // strands that may be
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
-    GLuint leader_texture_ = 0, leader_buffer_ = 0;
+    GLuint leader_texture_ = 0, leader_buffer_ = 0, rastered_texture_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
     GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset

@@ -89,11 +89,8 @@ void Renderer::draw_rings(const FrameInput& frame, const ShaderProgram& program)
     }
 }
 
-// Three values a mixed strand, for shaders/strand.geom: its place in its plait and m behind the ring at its root; m
-// behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
-void Renderer::upload_braids(const FrameInput& frame)
+std::vector<float4> braid_values(const Groom& groom)
 {
-    const Groom& groom = frame.simulation->solver().groom();
     const bool any = std::any_of(groom.tails.begin(), groom.tails.end(), [](auto& t) { return t.axis.w > 0.0f; });
     std::vector<float4> values;
     for (size_t i = 0; any && i < groom.tied.size(); ++i)
@@ -112,6 +109,12 @@ void Renderer::upload_braids(const FrameInput& frame)
             F4(float(groom.nodes - 2) * groom.drawn[i].root.w * per_node, braid.axis.w, braid.side.w, braid.depth));
         values.push_back(F4(braid.plait, braid.bound, 0.0f, 0.0f));
     }
+    return values;
+}
+
+void Renderer::upload_braids(const FrameInput& frame)
+{
+    std::vector<float4> values = braid_values(frame.simulation->solver().groom());
     braided_ = GLint(values.size() / 3);
     values.resize(std::max<size_t>(values.size(), 1));
     glBindBuffer(GL_TEXTURE_BUFFER, braid_buffer_);

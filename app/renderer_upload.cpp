@@ -1,6 +1,7 @@
 // What the renderer sends to the driver before it draws: parameters, grids, the head, the strands and their order.
 #include "app/renderer.h"
 
+#include "app/rasteriser.h"
 #include "sim/wave.h"
 
 #include <glm/geometric.hpp>
@@ -242,9 +243,24 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
-    upload_braids(frame);
-    if (params.render_show != 1)
+    if (params.render_show == 1)
+        return;
+    if (method_of(params) == BY_OPENCL)
     {
+        const Solver& solver = frame.simulation->solver();
+        if (!rasteriser_ || &rasteriser_->device() != &solver.device())
+            rasteriser_ = std::make_unique<Rasteriser>(solver.device());
+        rastered_ = std::make_unique<RasterStrands>(
+            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}});
+        for (int i = 0; i < RAMP && !rastered_->values.empty(); ++i)
+        {
+            const glm::vec3 color = ramp_color((float(i) + 0.5f) / float(RAMP));
+            rastered_->ramp.push_back(F4(color.x, color.y, color.z, 1.0f));
+        }
+    }
+    else
+    {
+        upload_braids(frame);
         upload_looks(frame.simulation->solver().groom().looks);
         glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_positions.bytes()), frame.drawn_positions.as<float>(),

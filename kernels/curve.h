@@ -3,8 +3,11 @@
 #define COIF_CURVE_H
 
 #define CURVE_FUNCTION static inline
+#define REAL float
+#define REAL4 float4
+#define WHOLE int
+#define BITS uint
 #define FLOAT4(x, y, z, w) ((float4)(x, y, z, w))
-#define UINT uint
 #define TO_INT(v) ((int)(v))
 #define TO_UINT(v) ((uint)(v))
 #define TO_FLOAT(v) ((float)(v))

@@ -1,7 +1,9 @@
 // The curve that is drawn through a strand's nodes: smoothing, what is laid on it, profiles, and what differs from
 // strand to strand. Read by OpenCL (float3, float4) and by GLSL (where shaders/curve.glsl gives vec3 and vec4 those
 // names), so that the two never hold two copies. Only scalar code and FLOAT4(): the two languages agree on little more.
-// No local is const, which in GLSL 1.50 asks for a constant expression.
+// No local is const, which in GLSL 1.50 asks for a constant expression. REAL, WHOLE and BITS are float, int and uint,
+// or as many of them as there are lanes, and REAL4 four REALs: what they hold may differ along a strand, all else does
+// not.
 #ifndef COIF_STRAND_CURVE_H
 #define COIF_STRAND_CURVE_H
 
@@ -12,16 +14,16 @@
 
 // Weights of four neighbouring nodes at t in [0, 1] between the two in the middle (thesis 5.2.1, listings 5.5 and 5.6;
 // cosine and cubic after Bourke, Interpolation methods, 1999).
-CURVE_FUNCTION float4 curve_weights(int curve, float t)
+CURVE_FUNCTION REAL4 curve_weights(int curve, REAL t)
 {
     if (curve == CURVE_LINEAR)
         return FLOAT4(0.0f, 1.0f - t, t, 0.0f);
     if (curve == CURVE_COSINE)
     {
-        float s = 0.5f - 0.5f * cos(3.14159265f * t);
+        REAL s = 0.5f - 0.5f * cos(3.14159265f * t);
         return FLOAT4(0.0f, 1.0f - s, s, 0.0f);
     }
-    float t2 = t * t, t3 = t2 * t;
+    REAL t2 = t * t, t3 = t2 * t;
     if (curve == CURVE_CUBIC)
         return FLOAT4(-t3 + 2.0f * t2 - t, t3 - 2.0f * t2 + 1.0f, -t3 + t2 + t, t3 - t2);
     return FLOAT4(-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
@@ -30,9 +32,9 @@ CURVE_FUNCTION float4 curve_weights(int curve, float t)
 
 // A profile's four numbers stand at 0, 1/3, 2/3 and 1 of the strand, with straight lines between them. `along` is 0 at
 // the root and 1 at the tip.
-CURVE_FUNCTION float profile_at(float4 profile, float along)
+CURVE_FUNCTION REAL profile_at(float4 profile, REAL along)
 {
-    float t = 3.0f * along;
+    REAL t = 3.0f * along;
     return profile.x + (profile.y - profile.x) * clamp(t, 0.0f, 1.0f) +
            (profile.z - profile.y) * clamp(t - 1.0f, 0.0f, 1.0f) +
            (profile.w - profile.z) * clamp(t - 2.0f, 0.0f, 1.0f);
@@ -43,16 +45,16 @@ CURVE_FUNCTION float profile_at(float4 profile, float along)
 
 // How far waves have set in at `along` (0 at the root, 1 at the tip), beginning at `begin`: smooth, full after a
 // quarter of the strand.
-CURVE_FUNCTION float wave_onset(float along, float begin)
+CURVE_FUNCTION REAL wave_onset(REAL along, float begin)
 {
-    float t = clamp((along - begin) * 4.0f, 0.0f, 1.0f);
+    REAL t = clamp((along - begin) * 4.0f, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
 // How far a strand has come into its braid at `behind` (m) from the ring, wholly after a third of a turn.
-CURVE_FUNCTION float braid_share(float behind, float pitch)
+CURVE_FUNCTION REAL braid_share(REAL behind, float pitch)
 {
-    float t = clamp(3.0f * behind / pitch, 0.0f, 1.0f);
+    REAL t = clamp(3.0f * behind / pitch, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
@@ -62,30 +64,32 @@ CURVE_FUNCTION float braid_share(float behind, float pitch)
 // front and length. The plaits' middles swing as sin a to the sides and sin 2a to front and back, a third of a turn
 // apart; the strand keeps its place (in the plait's radii; z: phase) in a cross-section that turns with the plait.
 // Towards `bound` (m) all are drawn together, and hang loose beyond. `swing`, `depth` and `plait` in m.
-CURVE_FUNCTION float4 braid_offset(float behind, float4 place, float pitch, float swing, float depth, float plait,
-                                   float bound)
+CURVE_FUNCTION REAL4 braid_offset(REAL behind, float4 place, float pitch, float swing, float depth, float plait,
+                                  float bound)
 {
-    float rate = 6.28318531f / pitch, angle = rate * behind + place.z;
-    float slope_x = swing * rate * cos(angle), slope_y = 2.0f * depth * rate * cos(2.0f * angle);
+    float rate = 6.28318531f / pitch;
+    REAL angle = rate * behind + place.z;
+    REAL slope_x = swing * rate * cos(angle), slope_y = 2.0f * depth * rate * cos(2.0f * angle);
     // Across the plait: along the width first, then what is left.
-    float across = 1.0f / sqrt(1.0f + slope_x * slope_x);
-    float whole_slope = 1.0f / sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);
+    REAL across = 1.0f / sqrt(1.0f + slope_x * slope_x);
+    REAL whole_slope = 1.0f / sqrt(1.0f + slope_x * slope_x + slope_y * slope_y);
     float u = plait * place.x, v = BRAID_FLAT * plait * place.y;
-    float4 woven = FLOAT4(swing * sin(angle) + u * across - v * slope_x * slope_y * across * whole_slope,
-                          depth * sin(2.0f * angle) + v * whole_slope / across,
-                          -u * slope_x * across - v * slope_y * across * whole_slope, 0.0f);
-    float t = clamp((behind - bound) / (0.5f * pitch) + 1.0f, 0.0f, 1.0f);
-    float loose = t * t * (3.0f - 2.0f * t);
-    float tassel = plait * (0.75f + 0.5f * clamp((behind - bound) / pitch, 0.0f, 1.0f));
-    float4 gathered = FLOAT4(tassel * (0.6f * sin(place.z) + 0.5f * place.x), 0.9f * tassel * place.y, 0.0f, 0.0f);
-    return woven * (1.0f - loose) + gathered * loose;
+    REAL woven_x = swing * sin(angle) + u * across - v * slope_x * slope_y * across * whole_slope;
+    REAL woven_y = depth * sin(2.0f * angle) + v * whole_slope / across;
+    REAL woven_z = -u * slope_x * across - v * slope_y * across * whole_slope;
+    REAL t = clamp((behind - bound) / (0.5f * pitch) + 1.0f, 0.0f, 1.0f);
+    REAL loose = t * t * (3.0f - 2.0f * t);
+    REAL tassel = plait * (0.75f + 0.5f * clamp((behind - bound) / pitch, 0.0f, 1.0f));
+    REAL gathered_x = tassel * (0.6f * sin(place.z) + 0.5f * place.x), gathered_y = 0.9f * tassel * place.y;
+    return FLOAT4(woven_x * (1.0f - loose) + gathered_x * loose, woven_y * (1.0f - loose) + gathered_y * loose,
+                  woven_z * (1.0f - loose), 0.0f);
 }
 
 // A number in [0, 1) that depends on nothing but the strand and what it is for. PCG output, O'Neill 2014.
-CURVE_FUNCTION float strand_random(int seed, int purpose)
+CURVE_FUNCTION REAL strand_random(WHOLE seed, WHOLE purpose)
 {
-    UINT state = TO_UINT(seed) * 747796405u + TO_UINT(purpose) * 2891336453u + 277803737u;
-    UINT word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    BITS state = TO_UINT(seed) * 747796405u + TO_UINT(purpose) * 2891336453u + 277803737u;
+    BITS word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return TO_FLOAT(((word >> 22u) ^ word) >> 8u) * (1.0f / 16777216.0f);
 }
 
@@ -105,10 +109,11 @@ CURVE_FUNCTION float strand_random(int seed, int purpose)
 
 // Where in the table, in whole tables, a strand's wave is at `distance` (m) from the root. With no randomness all
 // strands wave in step; the more, the further apart their phases and the places of the table that they use.
-CURVE_FUNCTION float wave_place(int seed, float distance, float frequency, float randomness)
+CURVE_FUNCTION REAL wave_place(int seed, REAL distance, float frequency, float randomness)
 {
-    float shift = randomness * strand_random(seed, RANDOM_WAVE_SHIFT);
-    float place = randomness > 0.0f ? floor(strand_random(seed, RANDOM_WAVE_PLACE) * 32.0f) : 0.0f;
+    REAL shift = randomness * strand_random(seed, RANDOM_WAVE_SHIFT), place = 0.0f;
+    if (randomness > 0.0f)
+        place = floor(strand_random(seed, RANDOM_WAVE_PLACE) * 32.0f);
     return (distance * frequency + shift + place) * (1.0f / 32.0f);
 }
 
@@ -118,34 +123,37 @@ CURVE_FUNCTION float wave_place(int seed, float distance, float frequency, float
 // A helix of radius 1 across the strand at `distance` (m) from the root: along the normal, along the binormal. It
 // begins `begin` turns on. What varies, varies with the seed `together`: the strand's, or that of all strands of a
 // clump; half as much as the radius does the pitch (m).
-CURVE_FUNCTION float4 curl_at(int together, float begin, float distance, float pitch, float variation, int hand)
+CURVE_FUNCTION REAL4 curl_at(int together, float begin, REAL distance, float pitch, float variation, int hand)
 {
-    float less = variation * strand_random(together, RANDOM_CURL_VARIATION);
-    float turns = distance / (pitch * (1.0f - 0.5f * less));
-    bool left = hand == CURL_BOTH ? strand_random(together, RANDOM_CURL_HAND) < 0.5f : hand == CURL_LEFT;
-    turns = begin + (left ? -turns : turns);
-    float angle = 6.28318531f * (turns - floor(turns));
+    REAL less = variation * strand_random(together, RANDOM_CURL_VARIATION);
+    REAL turns = distance / (pitch * (1.0f - 0.5f * less));
+    if (hand == CURL_LEFT)
+        turns = -turns;
+    if (hand == CURL_BOTH)
+        turns *= 2.0f * step(0.5f, strand_random(together, RANDOM_CURL_HAND)) - 1.0f;
+    turns = begin + turns;
+    REAL angle = 6.28318531f * (turns - floor(turns));
     return FLOAT4((1.0f - less) * cos(angle), (1.0f - less) * sin(angle), 0.0f, 0.0f);
 }
 
 // Noise between -1 and 1 that takes a random value at each whole number and goes smoothly from one to the next.
-CURVE_FUNCTION float wandering(int seed, int purpose, float place)
+CURVE_FUNCTION REAL wandering(int seed, int purpose, REAL place)
 {
-    float cell = floor(place), t = place - cell;
-    int at = purpose + 2 * TO_INT(cell);
-    float a = strand_random(seed, at), b = strand_random(seed, at + 2);
+    REAL cell = floor(place), t = place - cell;
+    WHOLE at = purpose + 2 * TO_INT(cell);
+    REAL a = strand_random(seed, at), b = strand_random(seed, at + 2);
     return 2.0f * (a + (b - a) * t * t * (3.0f - 2.0f * t)) - 1.0f;
 }
 
 // How far frizz has set in: at once, but from nothing, and no further at the tip.
-CURVE_FUNCTION float frizz_onset(float along) { return along * (2.0f - along); }
+CURVE_FUNCTION REAL frizz_onset(REAL along) { return along * (2.0f - along); }
 
 // Frizz of size 1 at most, as curl_at. Most strands have little of it and some all, or it would be a blur.
-CURVE_FUNCTION float4 frizz_at(int seed, float distance, float frequency)
+CURVE_FUNCTION REAL4 frizz_at(int seed, REAL distance, float frequency)
 {
-    float most = strand_random(seed, RANDOM_FRIZZ);
-    float place = distance * frequency + strand_random(seed, RANDOM_FRIZZ_SHIFT);
-    float own = 0.70710678f * (0.2f + 0.8f * most * most);
+    REAL most = strand_random(seed, RANDOM_FRIZZ);
+    REAL place = distance * frequency + strand_random(seed, RANDOM_FRIZZ_SHIFT);
+    REAL own = 0.70710678f * (0.2f + 0.8f * most * most);
     // Each turns while the other goes straight on.
     return FLOAT4(own * wandering(seed, RANDOM_FRIZZ_FIRST, place),
                   own * wandering(seed, RANDOM_FRIZZ_FIRST + 1, place + 0.5f), 0.0f, 0.0f);

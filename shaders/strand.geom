@@ -14,11 +14,12 @@ layout(triangle_strip, max_vertices = 62) out;
 #include "params"
 #include "frame.glsl"
 #include "curve.glsl"
-#include "kajiya_kay.glsl"
+
+uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
+#include "ribbon.glsl"
 #include "look.glsl"
 #include "braid.glsl"
 
-uniform sampler1D wave;         // both perpendiculars' waves, sim/wave.cpp
 uniform sampler1D ramp;         // colours that tell a value, app/strand_colors.h
 uniform isamplerBuffer leaders; // the strand that leads each strand's clump, where there are clumps
 
@@ -38,8 +39,6 @@ out RibbonData {
 
 Look look; // of this strand
 
-const float kBendTolerance = 0.5; // pixels that a piece may stray from the curve
-
 vec3 curve_at(float t)
 {
     vec4 w = curve_weights(params.smoothing_curve, t);
@@ -58,53 +57,28 @@ void frame_at(float t, out vec3 tangent, out vec3 normal)
     normal *= inversesqrt(max(dot(normal, normal), 1e-20));
 }
 
-// What tells strands apart.
-struct Seeds
+Waves waves_of(int strand)
 {
-    int own, together; // the strand's, and that of its curl, which the strands of a clump share
-    float curl_begin;  // turns
-};
-
-Seeds seeds_of(int strand)
-{
-    Seeds seeds;
-    seeds.own = seeds.together = look.seed;
-    seeds.curl_begin = 0.0;
+    Waves laid = Waves(look.normal_amplitude, look.normal_frequency, look.binormal_amplitude,
+                       look.binormal_frequency, look.curl, look.frizz, look.seed, look.seed, 0.0);
     if (look.curl > 0.0)
     {
-        seeds.curl_begin = params.curl_phase * strand_random(seeds.own, RANDOM_CURL_PHASE);
+        laid.curl_begin = params.curl_phase * strand_random(laid.own, RANDOM_CURL_PHASE);
         if (params.clump_strength > 0.0)
         {
-            seeds.together = texelFetch(leaders, strand).r + 7919 * params.interpolation_seed;
-            seeds.curl_begin += strand_random(seeds.together, RANDOM_CURL_TOGETHER);
+            laid.together = texelFetch(leaders, strand).r + 7919 * params.interpolation_seed;
+            laid.curl_begin += strand_random(laid.together, RANDOM_CURL_TOGETHER);
         }
     }
-    return seeds;
+    return laid;
 }
 
-vec3 laid_on(float t, Seeds seeds)
+vec3 laid_on(float t, Waves laid)
 {
     float along = mix(node[1].along, node[2].along, t);
-    float distance_from_root = mix(node[1].normal.w, node[2].normal.w, t);
     vec3 tangent, normal;
     frame_at(t, tangent, normal);
-    vec2 across = vec2(0.0); // along the normal, along the binormal
-    if (look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0)
-    {
-        float first = texture(wave, wave_place(seeds.own, distance_from_root, look.normal_frequency,
-                                               params.wave_normal_randomness)).r;
-        float second = texture(wave, wave_place(seeds.own, distance_from_root, look.binormal_frequency,
-                                                params.wave_binormal_randomness)).g;
-        across = vec2(first * look.normal_amplitude * wave_onset(along, params.wave_normal_begin),
-                      second * look.binormal_amplitude * wave_onset(along, params.wave_binormal_begin));
-    }
-    if (look.curl > 0.0)
-        across += look.curl * wave_onset(along, params.curl_begin) *
-                  curl_at(seeds.together, seeds.curl_begin, distance_from_root, params.curl_pitch,
-                          params.curl_variation, params.curl_hand).xy;
-    if (look.frizz > 0.0)
-        across += look.frizz * frizz_onset(along) *
-                  frizz_at(seeds.own, distance_from_root, params.frizz_frequency).xy;
+    vec2 across = laid_across(laid, along, mix(node[1].normal.w, node[2].normal.w, t)).xy;
     return profile_at(params.wave_along, along) * (normal * across.x + cross(tangent, normal) * across.y);
 }
 
@@ -112,32 +86,22 @@ vec3 plaited(float t, out float open)
 {
     vec3 tangent, normal;
     frame_at(t, tangent, normal);
-    vec4 by = braid_at(mix(node[1].along, node[2].along, t));
+    vec4 by = braid_at(braid, mix(node[1].along, node[2].along, t));
     open = by.w;
     return by.x * normal + by.y * cross(tangent, normal) + by.z * tangent;
 }
 
-int pieces(float pixel)
+int pieces(float pixel, Waves laid)
 {
     vec3 bend1 = gl_in[0].gl_Position.xyz - 2.0 * gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz;
     vec3 bend2 = gl_in[1].gl_Position.xyz - 2.0 * gl_in[2].gl_Position.xyz + gl_in[3].gl_Position.xyz;
     // A chord strays from an arc by an eighth of the second difference, and with the square of the piece's length.
     float stray = params.smoothing_curve == CURVE_LINEAR ? 0.0 : 0.125 * max(length(bend1), length(bend2)) / pixel;
     float segment = node[2].normal.w - node[1].normal.w;
-    float waves_n = segment * look.normal_frequency, waves_b = segment * look.binormal_frequency;
-    float turns = segment / (params.curl_pitch * (1.0 - 0.5 * params.curl_variation));
-    float minds = 0.55 * segment * params.frizz_frequency; // the sine that bends as much as a smooth step does
-    // A sine of height a and length l strays by a (pi / n)^2 / 2 when a wave is cut in n.
-    stray += 4.93 * (look.normal_amplitude * waves_n * waves_n +
-                     look.binormal_amplitude * waves_b * waves_b + look.curl * turns * turns +
-                     0.5 * look.frizz * minds * minds) *
-             profile_at(params.wave_along, 0.5 * (node[1].along + node[2].along)) / pixel;
-    if (braid.pitch > 0.0 && braid.behind + node[2].along * braid.per_along > 0.0)
-    {
-        float woven = segment / braid.pitch;
-        stray += 4.93 * (braid.swing + 4.0 * braid.depth) * woven * woven / pixel;
-    }
-    return clamp(int(ceil(sqrt(stray / kBendTolerance))), 1, params.smoothing_subdivisions);
+    stray += waves_stray(laid, segment, 0.5 * (node[1].along + node[2].along)) / pixel;
+    if (braid.pitch > 0.0)
+        stray += braid_stray(braid, segment, node[2].along) / pixel;
+    return clamp(int(ceil(sqrt(stray / BEND_TOLERANCE))), 1, params.smoothing_subdivisions);
 }
 
 void main()
@@ -148,18 +112,17 @@ void main()
     float pixel = frame.camera_position.w * distance(frame.camera_position.xyz, 0.5 * (start + end));
     look = look_of(node[1].strand);
     find_braid(node[1].strand);
-    int count = pieces(pixel);
-    bool adorned = look.normal_amplitude > 0.0 || look.binormal_amplitude > 0.0 ||
-                   look.curl > 0.0 || look.frizz > 0.0;
-    Seeds seeds = seeds_of(node[1].strand);
-    float brightness = exp(params.look_variation * 2.0 * (strand_random(seeds.own, RANDOM_BRIGHTNESS) - 0.5));
+    Waves laid = waves_of(node[1].strand);
+    int count = pieces(pixel, laid);
+    bool adorned = has_waves(laid);
+    float brightness = brightness_of(look.seed);
 
     float piece = 1.0 / float(count);
     vec3 before = curve_at(-piece), here = curve_at(0.0);
     if (adorned)
     {
-        before += laid_on(-piece, seeds);
-        here += laid_on(0.0, seeds);
+        before += laid_on(-piece, laid);
+        here += laid_on(0.0, laid);
     }
     float open = 1.0; // to the light
     if (braid.pitch > 0.0)
@@ -172,7 +135,7 @@ void main()
         float t = float(i) * piece;
         vec3 after = curve_at(t + piece);
         if (adorned)
-            after += laid_on(t + piece, seeds);
+            after += laid_on(t + piece, laid);
         float open_after = 1.0;
         if (braid.pitch > 0.0)
             after += plaited(t + piece, open_after);
@@ -183,15 +146,20 @@ void main()
         float size = frame.camera_position.w * length(to_camera); // of a pixel, here
         vec3 side = cross(tangent, to_camera);
         side *= inversesqrt(max(dot(side, side), 1e-20));
-        float width = look.width * (1.0 - params.look_taper * along * along) *
-                      profile_at(params.look_width_along, along) / size;
+        float width = ribbon_width(look.width, along) / size;
         float half_drawn = 0.5 * max(width, 1.0) + 0.5;
 
         vec3 hair = mix(look.root_color, look.tip_color, profile_at(params.look_color_along, along)) * brightness;
         float opacity = look.opacity * profile_at(params.look_opacity_along, along);
         float light = open * mix(node[1].light, node[2].light, t);
         if (node[1].value < 0.0)
-            ribbon.color = kajiya_kay(tangent, normalize(to_camera), hair, light);
+        {
+            vec4 fibre = kajiya_kay(dot(tangent, params.look_light_direction.xyz),
+                                    dot(tangent, normalize(to_camera)), light);
+            vec3 lit = light * params.look_light_color.rgb;
+            ribbon.color = vec3(scattered(fibre, hair.r, lit.r), scattered(fibre, hair.g, lit.g),
+                                scattered(fibre, hair.b, lit.b));
+        }
         else // lit little, so that a colour is the legend's
             ribbon.color = texture(ramp, mix(node[1].value, node[2].value, t)).rgb * mix(0.65, 1.0, light);
         for (float s = -1.0; s <= 1.0; s += 2.0)

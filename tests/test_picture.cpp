@@ -213,7 +213,8 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
     for (const ParamInfo& info : param_table())
     {
         const bool listed = read_by_shaders_only().contains(info.path()) || info.path() == "head.mesh_scale";
-        if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample")
+        if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample" ||
+            info.path() == "render.method")
             continue;
         Hairstyle style = small_style(base);
         float now[kMostNumbers];

@@ -48,6 +48,7 @@ TEST_P(Preset, LooksAsItDid)
     const std::string name = GetParam().stem().string();
     Options options;
     options.style = GetParam().string();
+    options.sets = {"render.method=geometry"}; // what they were drawn by; test_rasteriser.cpp compares the two
     if (const char* wish = std::getenv("COIF_TEST_DEVICE"))
         options.device = wish;
     ShotOptions shot;

@@ -69,7 +69,7 @@ TEST(Shaders, ABrokenShaderIsToldByItsName)
 TEST(Shaders, AFailedReloadKeepsTheOldPrograms)
 {
     Hairstyle style;
-    for (const char* set : {"head.mesh=", "interpolation.strands=200", "grid.resolution=20"})
+    for (const char* set : {"head.mesh=", "interpolation.strands=200", "grid.resolution=20", "render.method=geometry"})
         assign(style, set);
     Simulation simulation(test_device(), style);
     simulation.step({});

@@ -17,6 +17,7 @@ static const BenchScene kScenes[] = {
     {"head", "a whole head, all strands simulated", bench_whole_head},
     {"guides", "guides, and what is drawn of them", bench_guides},
     {"thesis", "against the thesis' own way", bench_thesis},
+    {"picture", "drawing strands", bench_picture},
     {"growth", "over strands and cores", bench_growth},
 };
 

@@ -1,0 +1,85 @@
+#pragma once
+#include "kernels/raster.h"
+#include "sim/solver.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coif
+{
+
+// What is seen, and from where. Relative to the head's origin, m; pixels from the lower left, as GL has them.
+struct RasterView
+{
+    glm::mat4 view_projection;
+    glm::vec3 eye;
+    float pixel;     // metres that one covers at a distance of one metre
+    float near, far; // m
+    int width, height;
+};
+
+// What is drawn: the solver's drawn strands as they lie on its device, and what else tells of them.
+struct RasterStrands
+{
+    const Solver* solver = nullptr;
+    HairParams params;          // as the device reads them
+    std::vector<float> waves;   // wave_table() of sim/wave.h
+    std::vector<float4> braids; // braid_values() of app/renderer.h
+    std::vector<float> values;  // one a node on the ramp; empty: the hair has its own colours
+    std::vector<float4> ramp;   // RAMP colours
+};
+
+// Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
+struct RasterPicture
+{
+    Mapped pixels;
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// Draws strands without a GPU's pipeline: kernels/raster.h. Equal input gives equal bytes on a device. Its memory is
+// bounded: strands that do not fit are drawn in batches, the nearer ones first.
+class Rasteriser
+{
+  public:
+    explicit Rasteriser(const Device& device) : device_(device) {}
+
+    // Where the depth of what is solid is to be written, 0 to 1, row by row, before draw(); valid until then.
+    float* solid_depth(int width, int height);
+    RasterPicture draw(const RasterStrands& strands, const RasterView& view);
+
+    const Device& device() const { return device_; }
+    const Buffers& buffers() const { return buffers_; } // for tests: by kernel argument
+    // Of the last draw().
+    int batches() const { return batches_; }
+    size_t pieces() const { return pieces_; } // in tiles
+    PassTimes take_times();
+
+    // Strands that are thinner than so many pixels on the whole are drawn fewer and as much wider. 0: never.
+    float least_width = 0.25f;
+    // Numbers that one batch may hold; tests make them small.
+    size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
+
+  private:
+    void launch(const std::string& pass, const std::string& extra, size_t items);
+    void room_for(const std::string& name, size_t bytes);
+    void draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
+                    int points_end, const std::string& options);
+
+    const Device& device_;
+    Buffers buffers_;
+    std::map<std::string, size_t> bytes_; // of the buffers that are our own
+    std::map<std::string, Kernel> kernels_;
+    float* solid_ = nullptr; // mapped
+    int width_ = 0, height_ = 0, batches_ = 0;
+    glm::ivec2 low_{0}, high_{0}; // what tiles with hair span
+    size_t pieces_ = 0;
+    std::vector<std::pair<std::string, cl::Event>> launches_;
+};
+
+} // namespace coif
