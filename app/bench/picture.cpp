@@ -64,8 +64,8 @@ std::vector<BenchRow> bench_picture(const Benching& with)
             continue;
         with.progress(fmt::format("{} strands", strands));
         Options options;
-        options.style = "bob";
-        options.sets = {fmt::format("interpolation.strands={}", strands), "camera.distance=0.45"};
+        options.style = "long";
+        options.sets = {fmt::format("interpolation.strands={}", strands), "camera.distance=0.5"};
         Simulation simulation(with.device, load_style(options));
         simulation.solver().draw();
         const double share = covered(renderer, simulation);
