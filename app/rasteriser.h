@@ -71,7 +71,7 @@ class Rasteriser
     void draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
                     int points_end, const std::string& options);
 
-    const Device& device_;
+    Device device_; // its handles: a device that is gone and another in its place are not taken for one
     Buffers buffers_;
     std::map<std::string, size_t> bytes_; // of the buffers that are our own
     std::map<std::string, Kernel> kernels_;

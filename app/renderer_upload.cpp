@@ -248,7 +248,7 @@ void Renderer::upload(const FrameInput& frame)
     if (method_of(params) == BY_OPENCL)
     {
         const Solver& solver = frame.simulation->solver();
-        if (!rasteriser_ || &rasteriser_->device() != &solver.device())
+        if (!rasteriser_ || rasteriser_->device().context() != solver.device().context())
             rasteriser_ = std::make_unique<Rasteriser>(solver.device());
         rastered_ = std::make_unique<RasterStrands>(
             RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}});

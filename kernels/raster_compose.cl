@@ -146,7 +146,8 @@ static inline ulong squares_between(float low, float high)
 // Rows of squares in the band that a piece may touch: the first, and the last.
 static inline int2 rows_of(int cells, int band)
 {
-    const int first = (cells >> 16 & 255) * CELL - band * BAND, last = (cells >> 24 & 255) * CELL + CELL - 1 - band * BAND;
+    const int first = (cells >> 16 & 255) * CELL - band * BAND;
+    const int last = (cells >> 24 & 255) * CELL + CELL - 1 - band * BAND;
     return (int2)(max(first, 0) / SIDE, last < 0 ? -1 : min(last, BAND - 1) / SIDE);
 }
 
@@ -174,7 +175,8 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
     const uint rg_a = as_uint(a.s4), rg_b = as_uint(b.s4), bo_a = as_uint(a.s5), bo_b = as_uint(b.s5);
     const bool root = rg_a & MARK_ROOT, tip = bo_b & MARK_TIP;
     const float crossing = 1.0f / max(fabs(nx), fabs(ny)); // a row or column, for a pixel across
-    const Span width = span(a.s3 * crossing, b.s3 * crossing), opacity = span(from_half(bo_a >> 16), from_half(bo_b >> 16));
+    const Span width = span(a.s3 * crossing, b.s3 * crossing);
+    const Span opacity = span(from_half(bo_a >> 16), from_half(bo_b >> 16));
     const Span red = span(from_half(rg_a), from_half(rg_b)), green = span(from_half(rg_a >> 16), from_half(rg_b >> 16)),
                blue = span(from_half(bo_a), from_half(bo_b)), depth = span(a.s2, b.s2);
     const bool steep = fabs(nx) > 1e-3f;

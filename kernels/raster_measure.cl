@@ -36,14 +36,16 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
     const float wider = widening(strand, frame);
     const float4 thick = params->look_width_along, share = params->wave_along;
     const float most_laid = fmax(fmax(share.x, share.y), fmax(share.z, share.w));
-    float most = most_laid * (look.laid.normal_amplitude + look.laid.binormal_amplitude + look.laid.curl + look.laid.frizz) +
+    float most = most_laid * (look.laid.normal_amplitude + look.laid.binormal_amplitude + look.laid.curl +
+                              look.laid.frizz) +
                  0.5f * wider * look.width * fmax(fmax(thick.x, thick.y), fmax(thick.z, thick.w));
     if (look.braid.pitch > 0.0f)
         most += look.braid.swing + look.braid.depth + 2.0f * look.braid.plait;
 
     const float4 cw = frame->clip_w, eye = frame->eye;
     const float half_width = 0.5f * (float)frame->width, half_height = 0.5f * (float)frame->height;
-    const float slanted = 1.0f + eye.w * (half_width + half_height); // what lies aside moves by what it comes nearer too
+    // What lies aside moves by what it comes nearer, too.
+    const float slanted = 1.0f + eye.w * (half_width + half_height);
     int run = 0, points = 0; // does the curve go on; how many points are there up to here
     for (int first = 1; first < NODES - 1; first += WIDTH)
     {
@@ -75,7 +77,8 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
         // A third of the way its Bezier points lie a sixth of the second differences off the chord (Bourke's cubic goes
         // further), and the curve lies between them and its ends.
         const real w1 = clip_of(cw, x1, y1, z1), w2 = clip_of(cw, x2, y2, z2);
-        const real room = (params->smoothing_curve == CURVE_CUBIC ? bulge : bend * (1.0f / 6.0f)) + most, nearest = fmin(w1, w2) - room;
+        const real room = (params->smoothing_curve == CURVE_CUBIC ? bulge : bend * (1.0f / 6.0f)) + most;
+        const real nearest = fmin(w1, w2) - room;
         const real i1 = 1.0f / w1, i2 = 1.0f / w2;
         const real sx1 = half_width + half_width * clip_of(frame->clip_x, x1, y1, z1) * i1;
         const real sx2 = half_width + half_width * clip_of(frame->clip_x, x2, y2, z2) * i2;
