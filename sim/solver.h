@@ -71,7 +71,7 @@ class Solver
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
     PassTimes take_times();
 
-    // For tests and measuring: buffers by kernel argument; kernels in use, by file and options.
+    // Buffers by kernel argument; kernels in use, by file and options.
     const Buffers& buffers() const { return buffers_; }
     const std::map<std::string, Kernel>& kernels() const { return kernels_; }
 
