@@ -9,9 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <functional>
 
 namespace coif
 {
@@ -36,9 +34,6 @@ static double taken(const Advice& advice, const Difference& d)
 {
     return std::max(d.motion / advice.tolerance, d.picture / advice.picture_tolerance);
 }
-
-// ms of a frame's passes and its picture.
-static double saving(const Difference& d) { return d.step_ms + d.picture_ms; }
 
 static bool within(const Advice& advice, const Difference& d)
 {
@@ -74,117 +69,62 @@ static void measure_features(const Trial& trial, Advice& advice)
     }
 }
 
-// What has a cheaper step still takes it if that saves more, as long as it leaves the others room.
+// What has a cheaper step still takes it, as long as it leaves the others room.
 static void go_further(const Trial& trial, Advice& advice)
 {
-    std::vector<std::pair<size_t, Feature>> going; // which, and as far as it has gone
+    std::vector<size_t> going;
     for (size_t i = 0; i < advice.features.size(); ++i)
         if (advice.features[i].verdict == Verdict::LEAVE_OUT && taken(advice, advice.features[i].difference) <= kRoom)
-            going.emplace_back(i, advice.features[i].feature);
+            going.push_back(i);
     while (!going.empty())
     {
-        std::vector<std::pair<size_t, Feature>> tried;
+        std::vector<Feature> next;
         std::vector<Hairstyle> changed;
-        for (const auto& [which, now] : going)
+        std::vector<size_t> tried;
+        for (const size_t i : going)
         {
-            const Feature next = further(now);
-            if (changes_text(now.style, next.style).empty())
+            const Feature feature = further(advice.features[i].feature);
+            if (changes_text(advice.features[i].feature.style, feature.style).empty())
                 continue;
-            tried.emplace_back(which, next);
-            changed.push_back(next.style);
+            tried.push_back(i);
+            next.push_back(feature);
+            changed.push_back(feature.style);
         }
         going.clear();
         if (changed.empty())
             return;
         const Comparison found = compare(trial, advice.base, changed);
         for (size_t i = 0; i < tried.size(); ++i)
-        {
-            const Difference& d = found.changed[i];
-            if (taken(advice, d) > kRoom)
-                continue;
-            going.push_back(tried[i]);
-            Advised& a = advice.features[tried[i].first];
-            if (saving(d) <= saving(a.difference))
-                continue;
-            a.feature = tried[i].second;
-            a.difference = d;
-        }
+            if (taken(advice, found.changed[i]) <= kRoom)
+            {
+                advice.features[tried[i]].feature = next[i];
+                advice.features[tried[i]].difference = found.changed[i];
+                going.push_back(tried[i]);
+            }
     }
-}
-
-// Differences of independent causes.
-static Difference add_up(const std::vector<Difference>& each, const std::vector<size_t>& out)
-{
-    Difference all{1e-9, 1e-9}; // nothing that is measured is less, and `worse` is a ratio
-    for (const size_t i : out)
-    {
-        all.motion = std::hypot(all.motion, each[i].motion);
-        all.picture = std::hypot(all.picture, each[i].picture);
-        all.step_ms += each[i].step_ms;
-        all.picture_ms += each[i].picture_ms;
-    }
-    return all;
-}
-
-std::vector<size_t> most_saving(const std::vector<Difference>& each, double motion, double picture, double worse)
-{
-    constexpr size_t kMost = 14; // whose subsets are all looked at
-    std::vector<size_t> may;
-    for (size_t i = 0; i < each.size(); ++i)
-        if (saving(each[i]) > 0.0)
-            may.push_back(i);
-    std::ranges::stable_sort(may, std::greater{}, [&](size_t i) { return saving(each[i]); });
-    may.resize(std::min(may.size(), kMost));
-    std::vector<size_t> best;
-    double most = 0.0;
-    for (size_t set = 1; set < size_t(1) << may.size(); ++set)
-    {
-        std::vector<size_t> out;
-        for (size_t k = 0; k < may.size(); ++k)
-            if (set >> k & 1)
-                out.push_back(may[k]);
-        const Difference all = add_up(each, out);
-        const double more = out.size() > 1 ? worse : 1.0; // what each does alone is known
-        if (saving(all) <= most || more * all.motion > motion || more * all.picture > picture)
-            continue;
-        most = saving(all);
-        best = out;
-    }
-    std::ranges::sort(best);
-    return best;
 }
 
 static void put_together(const Trial& trial, Advice& advice)
 {
-    std::vector<Advised*> may;
-    std::vector<Difference> each;
-    for (Advised& a : advice.features)
-        if (a.verdict == Verdict::LEAVE_OUT)
-        {
-            const bool saves = saving(a.difference) > 0.0;
-            a.verdict = saves ? Verdict::TOGETHER_NOT : Verdict::SAVES_NOTHING;
-            if (!saves)
-                continue;
-            may.push_back(&a);
-            each.push_back(a.difference);
-        }
-    for (double worse = 1.0;;)
+    for (;;)
     {
-        const std::vector<size_t> out = most_saving(each, advice.tolerance, advice.picture_tolerance, worse);
+        std::vector<Advised*> out;
         advice.lean = advice.base;
-        for (const size_t i : out)
-            advice.lean = with_changes(advice.lean, advice.base, may[i]->feature.style);
-        advice.together = out.empty() ? Difference{} : each[out[0]];
-        if (out.size() > 1)
-            advice.together = compare(trial, advice.base, {advice.lean}).changed[0];
-        if (!within(advice, advice.together))
-        {
-            worse = taken(advice, advice.together) / taken(advice, add_up(each, out)); // more than it was
-            continue;
-        }
-        for (const size_t i : out)
-            may[i]->verdict = Verdict::LEAVE_OUT;
-        return;
+        for (Advised& a : advice.features)
+            if (a.verdict == Verdict::LEAVE_OUT)
+            {
+                out.push_back(&a);
+                advice.lean = with_changes(advice.lean, advice.base, a.feature.style);
+            }
+        advice.together = out.empty() ? Difference{} : out[0]->difference;
+        if (out.size() < 2)
+            return;
+        advice.together = compare(trial, advice.base, {advice.lean}).changed[0];
+        if (within(advice, advice.together))
+            return;
+        const auto most =
+            std::ranges::max_element(out, {}, [&](const Advised* a) { return taken(advice, a->difference); });
+        (*most)->verdict = Verdict::TOGETHER_NOT;
     }
 }
 

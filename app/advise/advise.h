@@ -17,9 +17,8 @@ struct AdviseOptions
 
 enum class Verdict
 {
-    LEAVE_OUT,     // the tolerance cannot tell it from the style as it is
-    TOGETHER_NOT,  // that would go, but not along with what saves more
-    SAVES_NOTHING, // that would go, but the clock is not sure that it costs anything
+    LEAVE_OUT,    // the tolerance cannot tell it from the style as it is
+    TOGETHER_NOT, // that would go, but not along with all else that goes
     KEEP,
     LACKS, // what the tolerance can tell, and the style does not have
     ENOUGH // the style does without, and nobody would see it
@@ -48,13 +47,8 @@ struct Advice
     double guide_error = 0.0; // predicted: error_of_guides()
 };
 
-// Of changes that may each be made, those that save most of all that are not too much together, as indices in rising
-// order: squares of differences add, as those of independent causes do, and together make `worse` times what that comes
-// to. None of them saves nothing. The tolerances are fractions as in Difference.
-std::vector<size_t> most_saving(const std::vector<Difference>& each, double motion, double picture, double worse = 1.0);
-
-// Measures what the style does and does not do, then those features together that save most, by the clock, of what the
-// tolerances allow: while they turn out to be too much, the next best. Parameters as they are simulated:
+// Measures what the style does and does not do, then all together that it could leave out; while that is too much, what
+// takes most of the tolerance goes back in. No verdict hangs on a time. Parameters as they are simulated:
 // quality.tolerance has had its say. Throws Error as compare() does.
 Advice advise_on(const Trial& trial, const Hairstyle& style);
 

@@ -151,19 +151,13 @@ static double unlike_itself(const Trial& trial, const Player& player, const Imag
     return unlike(player, shrunk(image, kAfar), hair_in(image, bald));
 }
 
-// Of frame after frame, each against the same one: nothing, unless it surely is more than the frames differ by, and
-// than one in fifty of what they take.
+// Of frame after frame, each against the same one.
 static double saved(const std::vector<double>& own, const std::vector<double>& changed)
 {
-    std::vector<double> less, off;
+    std::vector<double> less;
     for (size_t i = 0; i < own.size() && i < changed.size(); ++i)
         less.push_back(own[i] - changed[i]);
-    const double middle = median(less);
-    for (const double one : less)
-        off.push_back(std::abs(one - middle));
-    // Three standard errors of a median, as of normal errors: their deviation is 1.48 times the median one.
-    const double sure = 3.0 * 1.25 * 1.48 * median(off) / std::sqrt(double(std::max<size_t>(less.size(), 1)));
-    return std::abs(middle) > std::max(sure, 0.02 * median(own)) ? middle : 0.0;
+    return median(less);
 }
 
 // Of the few pictures: nothing, unless all of the one are surely quicker than all of the other.

@@ -24,7 +24,7 @@ struct Difference
 {
     double motion = 0.0;     // of the guides' nodes, rms over nodes and time, as a fraction of the longest strand
     double picture = 0.0;    // 1 - SSIM over the pixels that hold hair, the most of the two pictures
-    double step_ms = 0.0;    // that a frame's passes take less of the device's time; 0 where the clock cannot tell
+    double step_ms = 0.0;    // that a frame's passes take less of the device's time
     double share = 0.0;      // of what they take of it in the style as it is, in the same play
     double picture_ms = 0.0; // that its picture takes less; 0 where the clock cannot tell
 };

@@ -15,9 +15,7 @@ static const char* word(Verdict verdict)
     case Verdict::LEAVE_OUT:
         return "leave out";
     case Verdict::TOGETHER_NOT:
-        return "keep: with what saves more it is too much";
-    case Verdict::SAVES_NOTHING:
-        return "keep: no saving is sure";
+        return "keep: with the others it is too much";
     case Verdict::KEEP:
         return "keep";
     case Verdict::LACKS:
