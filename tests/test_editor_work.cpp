@@ -1,6 +1,6 @@
 // The editor in a real window, kept open all day: files that change under it, crashes, presets, chance, two styles.
-#include "sim/error.h"
 #include "app/folders.h"
+#include "sim/error.h"
 #include "tests/editor_window.h"
 
 #include <algorithm>

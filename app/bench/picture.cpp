@@ -46,7 +46,7 @@ static double covered(Renderer& renderer, const Simulation& simulation)
         image[white] = picture_of(renderer, simulation, view);
     }
     const Mask hair = changed_pixels(image[0], image[1], 8);
-    return double(std::count(hair.begin(), hair.end(), true)) / (kWidth * kHeight);
+    return double(std::count_if(hair.begin(), hair.end(), [](auto seen) { return seen != 0; })) / (kWidth * kHeight);
 }
 
 std::vector<BenchRow> bench_picture(const Benching& with)
