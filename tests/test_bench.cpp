@@ -39,6 +39,10 @@ TEST(Bench, TrafficIsThatOfTheBuffersThatKernelsName)
     EXPECT_EQ(traffic.at("clear_density"), 2.0 * 16 * 16 * 16 * sizeof(int)) << "may be read as well as written";
     const double voxels = 16.0 * 16.0 * 16.0;
     EXPECT_EQ(traffic.at("density_gradient"), voxels * sizeof(int) + 2.0 * 3.0 * voxels * sizeof(float));
+    const std::map<std::string, double> operations = operations_of(hair.solver());
+    EXPECT_EQ(operations.at("density_gradient"), 6.0 * voxels);
+    EXPECT_GT(operations.at("simulate_direct"), 252.0 * 14 * 100) << "one substep of lengths alone";
+    EXPECT_EQ(operations.count("clear_density"), 0u);
     EXPECT_GT(traffic.at("simulate_direct"), 252.0 * 16 * 3 * sizeof(float) * 4) << "positions, velocities, twice";
 }
 

@@ -4,6 +4,7 @@
 #include "sim/simulation.h"
 
 #include <chrono>
+#include <cmath>
 
 namespace coif
 {
@@ -56,6 +57,56 @@ std::map<std::string, double> traffic_of(const Solver& solver)
             bytes[kernel.name] += (kernel.writes[i] ? 2.0 : 1.0) *
                                   double(solver.buffers().at(kernel.arguments[i]).getInfo<CL_MEM_SIZE>());
     return bytes;
+}
+
+// Additions, subtractions, multiplications, divisions, roots and comparisons, one each, of a lane that touches nothing
+// and whose lengths are found at once.
+static double of_direct(const Solver& solver, const std::string& options)
+{
+    const auto has = [&](const char* feature) { return options.find(feature) != options.npos; };
+    double node_substep = 26.0 + 54.0 + 15.0 + 11.0; // prediction, lengths, residual, segments and moves
+    double node_step = 50.0;                         // turned, checked, stored
+    if (has("-D BENDING"))
+    {
+        node_substep += 22.0 + 27.0; // forces, solve
+        node_step += 20.0;           // factors
+    }
+    if (has("-D CURLED"))
+        node_substep += 110.0;
+    if (has("-D BODY_GRID"))
+    {
+        node_substep += 28.0; // height over the plane
+        node_step += 135.0;   // the plane; at its length, and clear of the head
+    }
+    if (has("-D WIND"))
+    {
+        node_substep += 30.0;
+        node_step += 3.0 * 8.0 * 26.0; // components and corners of the noise
+    }
+    if (has("-D REPULSION"))
+        node_step += 60.0;
+    const Groom& groom = solver.groom();
+    double substeps = 0.0;
+    for (const int pace : read<int>(solver.device(), solver.buffers().at("pace"), size_t(groom.blocks)))
+        substeps += double(substeps_of(pace - 1)) / groom.blocks;
+    return double(groom.guides) * (groom.nodes - 2) * (substeps * node_substep + node_step);
+}
+
+std::map<std::string, double> operations_of(const Solver& solver)
+{
+    const double side = std::cbrt(double(solver.buffers().at("density").getInfo<CL_MEM_SIZE>() / sizeof(int)));
+    const double voxels = side * side * side;
+    std::map<std::string, double> operations;
+    for (const auto& [key, kernel] : solver.kernels())
+        if (kernel.name == "simulate_direct")
+            operations[kernel.name] += of_direct(solver, key);
+        else if (kernel.name == "blur_density")
+            operations[kernel.name] += voxels * (2.0 * (double(solver.info().light_box.x) + 1.0) + 5.0);
+        else if (kernel.name == "density_gradient")
+            operations[kernel.name] += voxels * 6.0;
+        else if (kernel.name == "transmittance")
+            operations[kernel.name] += voxels * 14.0;
+    return operations;
 }
 
 std::vector<std::vector<BenchRow>> timed(const std::vector<std::function<PassTimes()>>& runs, int repeats)

@@ -34,6 +34,10 @@ class BenchHair
 // Bytes, by pass.
 std::map<std::string, double> traffic_of(const Solver& solver);
 
+// What a frame's passes have to do on numbers at least, as counted in their source; those that are not counted are left
+// out. Operations, by pass.
+std::map<std::string, double> operations_of(const Solver& solver);
+
 // How long each pass of each run took: medians and quartiles, as rows with nothing else said. All runs take turns.
 std::vector<std::vector<BenchRow>> timed(const std::vector<std::function<PassTimes()>>& runs, int repeats);
 

@@ -10,7 +10,7 @@ namespace coif
 static void add_rows(std::vector<BenchRow>& all, std::vector<BenchRow> rows, BenchHair& hair, const Benching& with,
                      const std::string& note)
 {
-    const std::map<std::string, double> traffic = traffic_of(hair.solver());
+    const std::map<std::string, double> traffic = traffic_of(hair.solver()), operations = operations_of(hair.solver());
     for (BenchRow& row : rows)
     {
         row.note = note;
@@ -19,6 +19,9 @@ static void add_rows(std::vector<BenchRow>& all, std::vector<BenchRow> rows, Ben
         const auto bytes = traffic.find(row.what);
         if (bytes != traffic.end())
             row.bytes = bytes->second;
+        const auto counted = operations.find(row.what);
+        if (counted != operations.end())
+            row.operations = counted->second;
         all.push_back(row);
     }
 }
