@@ -45,7 +45,8 @@ struct Scene
     }
     void tie()
     {
-        const Shaping shaping = shape_over(style.params, style.host, scalp, scalp);
+        const Scalp own = guide_scalp(scalp, style.params);
+        const Shaping shaping = shape_over(style.params, style.host, scalp, own);
         groom = grow(shaping);
         roots = tie_roots(groom, shaping);
         for (size_t i = 0; i < style.host.ties.size(); ++i)
