@@ -75,7 +75,7 @@ static inline real capsule_distance(constant Capsule* body, Points p, Points* aw
 #ifdef BODY_GRID
 // One look at the grid for each node, where it is when the step begins: its substeps go by that. A node goes `move` in
 // each of them at its speed, and would go `carried` if it went with the head's origin. What comes in all the same, for
-// the head has turned, is found at the step's end (walk_out).
+// the head has turned, is found by walk_out().
 #define NEAR_BY 0.005f // m
 static inline void find_planes(Bodies* bodies, HeadPose begin, const Points* x, const Points* move, Points carried,
                                int substeps)

@@ -1,5 +1,5 @@
-// How the direct solver keeps nodes out of the bodies: each substep pushes and rubs them where they would come to lie
-// inside, and at the step's end each strand is laid around them at its exact length.
+// How a substep of the direct solver keeps nodes out of the bodies: it pushes and rubs them where they would come to
+// lie inside, and at the end lays each strand around them at its exact length.
 #ifndef COIF_BODIES_CONTACT_H
 #define COIF_BODIES_CONTACT_H
 #include "bodies.h"
@@ -48,7 +48,7 @@ static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose 
 }
 #endif
 
-// Root to tip, the last word of a step: each node at its exact length from its parent and, if that is inside a body,
+// Root to tip, the last word of a substep: each node at its exact length from its parent and, if that is inside a body,
 // on the circle where that length meets the body's surface (its tangent plane, found again from where that led). Where
 // the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
 // is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Returns the strands that it found in

@@ -248,7 +248,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             kept = rescue(x, predicted, move, pull, rest, tip_mass, held, failed, &bad);
 
 #ifdef CONTACT
-        if (substep + 1 == substeps && any_near(&near))
+        if (any_near(&near))
         {
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)

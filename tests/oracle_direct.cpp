@@ -276,7 +276,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
 static bool substep(Strand& strand, const DirectStep& step, const Place& last, const Place& now, double h, Drag drag,
                     double gain_steady, Vec root, Vec direction, Vec normal, const Vec* at_rest,
                     const std::vector<Vec>& rest_bend, const std::vector<Vec>& wind, const std::vector<Vec>& push,
-                    const std::vector<Ground>& ground, std::vector<double>& inside, bool is_last, const Rounder& round)
+                    const std::vector<Ground>& ground, std::vector<double>& inside, const Rounder& round)
 {
     const int n = strand.n;
     const Vec along = now.turn * direction + round(6.0);
@@ -330,7 +330,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         move = predicted;
         sound = rescue(strand, move, step.tip_mass, kept, round);
     }
-    if (is_last && (step.on_grid || !step.bodies.empty()))
+    if (step.on_grid || !step.bodies.empty())
     {
         std::vector<Vec> walked;
         for (size_t i = 0; i < size_t(n); ++i)
@@ -429,7 +429,7 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
                              strands.root_position[size_t(s)], strands.root_direction[size_t(s)],
                              strands.root_normal[size_t(s)], &strands.rest_position[first],
                              {strands.rest_bend.begin() + long(first), strands.rest_bend.begin() + long(first) + n},
-                             wind, push, ground, inside, i + 1 == substeps, round);
+                             wind, push, ground, inside, round);
             for (const double pull : strand.pull)
                 tensest = std::max(tensest, std::abs(pull));
         }
