@@ -135,12 +135,24 @@ static inline Nearest nearest_capsule(const Bodies* bodies, HeadPose head, Point
     return nearest;
 }
 
-static inline Nearest nearest_body(const Bodies* bodies, HeadPose head, Points p)
+// To a node of the strand that has come to p. Unless it is to be `exact`, the head's surface is the node's plane
+// (find_planes) as long as it is not a sample of the grid away from where that was found.
+static inline Nearest nearest_body(const Bodies* bodies, HeadPose head, int node, Points p, int exact)
 {
     Nearest nearest = nearest_capsule(bodies, head, p);
 #ifdef BODY_GRID
-    Points away;
-    const real to_grid = head_distance(bodies->grid, into_head(head, p), &away, bodies->info);
+    const Points in_head = into_head(head, p), way = minus(in_head, bodies->start[node]);
+    const float sample = bodies->info->body_corner.w;
+    const whole anew = exact ? (whole)(-1) : !(dot_lanes(way, way) < sample * sample);
+    Points away = bodies->normal[node];
+    real to_grid = dot_lanes(away, in_head) - bodies->level[node];
+    if (any_lane(anew))
+    {
+        Points normal;
+        const real distance = head_distance(bodies->grid, in_head, &normal, bodies->info);
+        to_grid = select(to_grid, distance, anew);
+        away = select_points(away, normal, anew);
+    }
     const whole is = to_grid <= nearest.distance;
     nearest.distance = select(nearest.distance, to_grid, is);
     nearest.away = select_points(nearest.away, away, is);

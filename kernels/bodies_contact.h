@@ -51,11 +51,12 @@ static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose 
 // Root to tip, the last word of a substep: each node at its exact length from its parent and, if that is inside a body,
 // on the circle where that length meets the body's surface (its tangent plane, found again from where that led). Where
 // the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
-// is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Returns the strands that it found in
-// contact.
+// is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Only the last substep's walk need be
+// `exact` (nearest_body). Returns the strands that it found in contact.
 #define WALK_ROUNDS 6
+#define TOUCHING 1e-5f // of a segment: what lies that deep is on the surface
 static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, held_count held,
-                             const real* inside)
+                             const real* inside, int exact)
 {
     whole touched = (whole)(0);
     for (int k = 2; k < NODES; ++k)
@@ -76,9 +77,9 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
 #endif
         for (int turn = 0; turn < WALK_ROUNDS && any_lane(~clear); ++turn)
         {
-            const Nearest nearest = nearest_body(bodies, head, at);
+            const Nearest nearest = nearest_body(bodies, head, k, at, exact);
             const real gap = nearest.distance + inside[k];
-            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < 0.0f) & ~clear;
+            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < -TOUCHING * rest) & ~clear;
             if (!any_lane(in))
                 break;
             touched |= in;

@@ -253,7 +253,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)
                 walked[i] = plus(x[i], move[i]);
-            const whole touched = walk_out(&near, now, walked, rest, held, inside);
+            const whole touched = walk_out(&near, now, walked, rest, held, inside, substep + 1 == substeps);
             if (any_lane(touched))
                 for (int i = 2; i < NODES; ++i)
                     move[i] = select_points(move[i], minus(walked[i], x[i]), touched);

@@ -159,15 +159,6 @@ static Plane head_at(const DirectStep& step, Vec local, const Rounder& round)
     return plane;
 }
 
-static Nearest nearest_body(const DirectStep& step, const Place& head, Vec p, const Rounder& round)
-{
-    const Nearest nearest = nearest_capsule(step, head, p);
-    if (!step.on_grid)
-        return nearest;
-    const Plane plane = head_at(step, head.into(p), round);
-    return plane.distance <= nearest.distance ? Nearest{plane.distance, head.turn * plane.normal, true} : nearest;
-}
-
 namespace
 {
 // What a node knows of the head all through a step, in the head's frame.
@@ -189,6 +180,20 @@ static Ground ground_of(const DirectStep& step, const Place& begin, Vec x, Vec w
     const double room = plane.distance - 0.005;
     return {start, plane.normal, plane.distance, glm::dot(plane.normal, start) - plane.distance,
             room < 0.0 || 2.0 * glm::length(way) >= room};
+}
+
+// To a node that has come to p: by its plane where that was found within a sample of the grid, unless `exact`.
+static Nearest nearest_body(const DirectStep& step, const Place& head, const Ground& ground, Vec p, bool exact,
+                            const Rounder& round)
+{
+    const Nearest nearest = nearest_capsule(step, head, p);
+    if (!step.on_grid)
+        return nearest;
+    const Vec local = head.into(p) + round(6.0 * glm::length(p));
+    Plane plane = {glm::dot(ground.normal, local) - ground.level, ground.normal};
+    if (exact || glm::distance(local, ground.start) >= double(step.info.body_corner.w))
+        plane = head_at(step, head.into(p), round);
+    return plane.distance <= nearest.distance ? Nearest{plane.distance, head.turn * plane.normal, true} : nearest;
 }
 
 // ---- one strand ----------------------------------------------------------------------------------------------------
@@ -226,7 +231,7 @@ static void push_and_rub(const DirectStep& step, const Place& last, const Place&
 // From root to tip: each node at its length from its parent and, if inside a body, where that length meets the plane
 // that touches the body under it, in the plane of its direction; found again six times.
 static bool walk_out(const DirectStep& step, const Place& now, const Strand& strand, const std::vector<double>& inside,
-                     std::vector<Vec>& x, const Rounder& round)
+                     const std::vector<Ground>& ground, std::vector<Vec>& x, bool exact, const Rounder& round)
 {
     bool touched = false;
     const double rest = strand.rest;
@@ -240,9 +245,9 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
         for (int turn = 0; turn < 6; ++turn)
         {
             const Vec at = parent + d + round(6.0 * (glm::length(parent) + rest));
-            const Nearest body = nearest_body(step, now, at, round);
+            const Nearest body = nearest_body(step, now, ground[size_t(k)], at, exact, round);
             const double gap = body.distance + inside[size_t(k)];
-            if (!(gap < 0.0))
+            if (!(gap < -1e-5 * rest))
                 break;
             touched = true;
             const Vec n = glm::normalize(body.away + round(8.0));
@@ -276,7 +281,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
 static bool substep(Strand& strand, const DirectStep& step, const Place& last, const Place& now, double h, Drag drag,
                     double gain_steady, Vec root, Vec direction, Vec normal, const Vec* at_rest,
                     const std::vector<Vec>& rest_bend, const std::vector<Vec>& wind, const std::vector<Vec>& push,
-                    const std::vector<Ground>& ground, std::vector<double>& inside, const Rounder& round)
+                    const std::vector<Ground>& ground, std::vector<double>& inside, bool exact, const Rounder& round)
 {
     const int n = strand.n;
     const Vec along = now.turn * direction + round(6.0);
@@ -335,7 +340,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         std::vector<Vec> walked;
         for (size_t i = 0; i < size_t(n); ++i)
             walked.push_back(strand.x[i] + move[i]);
-        if (walk_out(step, now, strand, inside, walked, round))
+        if (walk_out(step, now, strand, inside, ground, walked, exact, round))
             for (size_t i = 2; i < size_t(n); ++i)
                 move[i] = walked[i] - strand.x[i];
     }
@@ -429,7 +434,7 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
                              strands.root_position[size_t(s)], strands.root_direction[size_t(s)],
                              strands.root_normal[size_t(s)], &strands.rest_position[first],
                              {strands.rest_bend.begin() + long(first), strands.rest_bend.begin() + long(first) + n},
-                             wind, push, ground, inside, round);
+                             wind, push, ground, inside, i + 1 == substeps, round);
             for (const double pull : strand.pull)
                 tensest = std::max(tensest, std::abs(pull));
         }

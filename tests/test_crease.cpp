@@ -45,7 +45,7 @@ kernel void walk_probe(global const float* parent, global float* child, constant
     nodes[0] = nodes[1] = load_lanes(parent + at);
     nodes[2] = load_lanes(child + at);
     const real inside[NODES] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
-    walk_out(&near, head, nodes, (real)(REST), 2, inside);
+    walk_out(&near, head, nodes, (real)(REST), 2, inside, 1);
     store_lanes(nodes[2], child + at);
 }
 )";
