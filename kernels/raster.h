@@ -92,6 +92,13 @@ static inline float4 piece_bounds(float8 a, float8 b)
                     max(a.s1 + up_a, b.s1 + up_b));
 }
 
+// Pieces of a chunk: the first, and the one after the last.
+static inline int2 chunk_pieces(int chunk, constant RasterFrame* frame)
+{
+    const int each = (frame->points + frame->chunks - 1) / frame->chunks;
+    return (int2)(chunk * each, min((chunk + 1) * each, frame->points - 1));
+}
+
 // Those of a tile, which begins at (x, y), as RasterPiece has them.
 static inline int piece_cells(float4 bounds, int x, int y)
 {

@@ -8,12 +8,11 @@ kernel void raster_fill(global const float* points, global int* counts, global c
     if (chunk >= frame->chunks)
         return;
     global int* own = counts + chunk * frame->tiles_x * frame->tiles_y;
-    const int per_chunk = (frame->points + frame->chunks - 1) / frame->chunks;
-    const int end = min((chunk + 1) * per_chunk, frame->points - 1);
-    if (chunk * per_chunk >= end)
+    const int2 pieces = chunk_pieces(chunk, frame);
+    if (pieces.x >= pieces.y)
         return;
-    float8 a = vload8(chunk * per_chunk, points);
-    for (int i = chunk * per_chunk; i < end; ++i)
+    float8 a = vload8(pieces.x, points);
+    for (int i = pieces.x; i < pieces.y; ++i)
     {
         const float8 b = vload8(i + 1, points);
         const float4 bounds = piece_bounds(a, b);

@@ -181,16 +181,14 @@ static std::vector<Rung> climb(const Device& device, const HairParams& params, c
 }
 
 // With its ties: hair behind a ring swings otherwise.
-static Groom as_grown(const Hairstyle& style, const Scalp& scalp)
+static Groom as_grown(const Hairstyle& style, Assets& assets)
 {
-    if (style.host.ties.empty())
-        return grow(style.params, scalp, style.host);
-    Assets assets = load_assets(style);
-    return grown(style, assets);
+    return style.host.ties.empty() ? grow(style.params, assets.scalp, style.host) : grown(style, assets);
 }
 
-Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality)
+Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, Assets& assets, Quality& quality)
 {
+    const Scalp& scalp = assets.scalp;
     constexpr int kMostNodes = 64;
     quality = {};
     Hairstyle live = style;
@@ -233,7 +231,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Sca
     while (p.interpolation_refine < most &&
            error_of_guides(p, scalp, vertices << 2 * p.interpolation_refine) > of_guides)
         ++p.interpolation_refine;
-    const Groom groom = as_grown(live, scalp);
+    const Groom groom = as_grown(live, assets);
     quality.guide_error = all ? 0.0 : error_of_guides(p, scalp, groom.guides);
     note(guides_pinned ? held : chosen, fmt::format("{} guides", groom.guides));
     const bool substeps_pinned = pinned(style, "solver.courant") || pinned(style, "solver.substeps");

@@ -7,6 +7,8 @@
 namespace coif
 {
 
+struct Assets;
+
 // What one setting of the direct solver's substeps gives: measured on sixteen of the style's own guides, free of
 // contact and of each other, through two seconds of shaking the head.
 struct Rung
@@ -41,8 +43,8 @@ std::string quality_text(const Quality& quality);
 // quality.tolerance allows, the cheapest that the tables of `coif measure` say will do. What it says itself is pinned.
 // Of the solvers the direct one is cheaper at any accuracy, so pbd is only where a style says so: then nothing is
 // chosen or predicted, because no number of its iterations bounds its error. Without a tolerance, the style as it is.
-// Throws Error as grow() and Solver do.
-Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, const Scalp& scalp, Quality& quality);
+// `assets` are the style's. Throws Error as grow() and Solver do.
+Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, Assets& assets, Quality& quality);
 
 // The error of these parameters over the first `seconds` of a motion, measured: sixteen guides against themselves at
 // eight times the substeps, as a fraction of the strand's length. `params` as authored. Throws Error as Solver does.

@@ -17,6 +17,16 @@ enum Channel
     kWeightB
 };
 
+glm::vec3 shares_over_triangle(float b, float c)
+{
+    if (b + c > 1.0f)
+    {
+        b = 1.0f - b;
+        c = 1.0f - c;
+    }
+    return {1.0f - b - c, b, c};
+}
+
 std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
 {
     std::vector<double> area_up_to;
@@ -34,14 +44,7 @@ std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
         const double at = (i + double(random01(seed, i, kTriangle))) / count * area;
         const size_t found = size_t(std::upper_bound(area_up_to.begin(), area_up_to.end(), at) - area_up_to.begin());
         const glm::uvec3 t = scalp.triangles[std::min(found, scalp.triangles.size() - 1)];
-        // Uniform over the triangle: points of the parallelogram's other half are folded back.
-        float b = random01(seed, i, kWeightA), c = random01(seed, i, kWeightB);
-        if (b + c > 1.0f)
-        {
-            b = 1.0f - b;
-            c = 1.0f - c;
-        }
-        places.push_back({t, {1.0f - b - c, b, c}});
+        places.push_back({t, shares_over_triangle(random01(seed, i, kWeightA), random01(seed, i, kWeightB))});
     }
     return places;
 }

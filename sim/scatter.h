@@ -14,6 +14,10 @@ enum GuideChoice // interpolation.guides
     GUIDES_ALL
 };
 
+// Shares of a triangle's corners from two numbers in [0, 1), uniform over the triangle: points of the parallelogram's
+// other half are folded back.
+glm::vec3 shares_over_triangle(float b, float c);
+
 // So many places spread over a scalp's triangles by area (thesis, listing 5.4). They hang on the scalp, their number
 // and the seed alone.
 std::vector<Between> spread_places(const Scalp& scalp, int count, int seed);

@@ -174,7 +174,7 @@ Simulation::Simulation(const Device& device, Hairstyle style, Falling falling)
     : device_(device), falling_(std::move(falling)), authored_(std::move(style))
 {
     assets_ = load_assets(authored_);
-    style_ = meet_tolerance(device_, authored_, assets_.scalp, quality_);
+    style_ = meet_tolerance(device_, authored_, assets_, quality_);
     solver_ = std::make_unique<Solver>(device_, style_.params, grown(style_, assets_), hand_);
     set_bodies(style_);
     drape();
@@ -269,7 +269,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     Quality quality = quality_;
     Hairstyle style = authored;
     if (reload || !same_hair(authored, authored_))
-        style = meet_tolerance(device_, authored, meshes ? fresh.scalp : assets_.scalp, quality);
+        style = meet_tolerance(device_, authored, meshes ? fresh : assets_, quality);
     else
         for (const char* kept : kTolerant)
             if (!quality_.rungs.empty())

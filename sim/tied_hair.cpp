@@ -407,13 +407,8 @@ static DrawnStrand mixed_copy(const DrawnStrand& copy, const Scalp& scalp, const
     const float chance = random01(params.interpolation_seed, index, 101);
     const glm::uvec3 t =
         scalp.triangles[triangles[std::min(size_t(chance * float(triangles.size())), triangles.size() - 1)]];
-    float b = random01(params.interpolation_seed, index, 102), c = random01(params.interpolation_seed, index, 103);
-    if (b + c > 1.0f)
-    {
-        b = 1.0f - b;
-        c = 1.0f - c;
-    }
-    const vec3 weights(1.0f - b - c, b, c);
+    const vec3 weights = shares_over_triangle(random01(params.interpolation_seed, index, 102),
+                                              random01(params.interpolation_seed, index, 103));
     const vec3 root =
         (scalp.positions[t.x] * weights.x + scalp.positions[t.y] * weights.y + scalp.positions[t.z] * weights.z) *
         params.head_scale;

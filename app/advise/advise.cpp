@@ -152,7 +152,8 @@ Advice advise_on(const Trial& trial, const Hairstyle& style)
 static Hairstyle chosen(const Device& device, const Hairstyle& style)
 {
     Quality quality;
-    Hairstyle live = meet_tolerance(device, style, load_assets(style).scalp, quality);
+    Assets assets = load_assets(style);
+    Hairstyle live = meet_tolerance(device, style, assets, quality);
     live.params.quality_tolerance = 0.0f;
     return live;
 }
