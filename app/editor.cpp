@@ -19,6 +19,7 @@ namespace coif
 static constexpr int kPanelWidth = 400;            // pixels of the window
 static constexpr int kMostSteps = 4;               // in one frame; what is over is dropped and counted
 static constexpr double kSettle = 1.5;             // s that a style lives before it is first seen
+static constexpr int kRefined = 16, kAtOnce = 2;   // pictures of what stands still; of them in one frame
 static constexpr Uint32 kIdleWait = 50;            // ms between looks at a paused window
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
@@ -338,7 +339,9 @@ void Editor::note_resets()
 bool Editor::frame()
 {
     SDL_Event event;
-    if (redraw_ <= 0 && SDL_WaitEventTimeout(&event, paused_ || simulation_->solver().asleep() ? kIdleWait : 1))
+    const bool refining = refined_ < kRefined;
+    if (redraw_ <= 0 &&
+        SDL_WaitEventTimeout(&event, !refining && (paused_ || simulation_->solver().asleep()) ? kIdleWait : 1))
         handle(event);
     while (SDL_PollEvent(&event))
         handle(event);
@@ -350,9 +353,10 @@ bool Editor::frame()
     if (browser_.shown && thumbnails_ && thumbnails_->work())
         redraw_ = std::max(redraw_, kRedraw);
     keep_settings();
-    if (closed_ || redraw_ <= 0)
+    const bool still = redraw_ <= 0 && (paused_ || simulation_->solver().asleep());
+    if (closed_ || (redraw_ <= 0 && !(still && refined_ < kRefined)))
         return !closed_;
-    --redraw_;
+    redraw_ = std::max(redraw_ - 1, 0);
     frame_ms_ = frames_++ == 0 ? 1e3 * seconds : frame_ms_ + 0.1 * (1e3 * seconds - frame_ms_);
 
     int width = 0, height = 0, pixels_wide = 0, pixels_high = 0;
@@ -388,6 +392,8 @@ bool Editor::frame()
             note_resets();
             const int wide = picture_width() * pixels_wide / std::max(width, 1);
             FrameInput input = frame_input(*simulation_, camera_);
+            refine(input, still && redraw_ <= 0); // else the panel has just changed it
+
             trial_.show(*renderer_, input, wide, pixels_high);
             legend_.title = input.colors.title;
             legend_.readings = input.colors.readings;
@@ -396,13 +402,35 @@ bool Editor::frame()
             beside_.simulation->solver().draw();
             beside_.simulation->solver().take_times();
             FrameInput other = frame_input(*beside_.simulation, camera_);
+            other.samples = input.samples;
+            other.before = input.before;
+            other.kept = input.kept;
             trial_.apply(other);
             beside_.renderer->show(other, wide, pixels_high, wide);
         });
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     SDL_GL_SwapWindow(window_.sdl());
+    give_way(1e3 * double(SDL_GetPerformanceCounter() - tick) / double(SDL_GetPerformanceFrequency()));
     return !closed_;
+}
+
+// What stands still is drawn again and again, each time a part of a pixel aside, and shown as the mean.
+void Editor::refine(FrameInput& input, bool still)
+{
+    input.kept = leeway_.share();
+    input.before = still ? refined_ : 0;
+    input.samples = still ? kAtOnce : 1;
+    refined_ = still ? refined_ + kAtOnce : 0;
+}
+
+// After a frame that took so long, ms.
+void Editor::give_way(double ms)
+{
+    const int level = leeway_.level;
+    note_frame(leeway_, ms, held_.what != Grab::NONE || ImGui::IsAnyItemActive());
+    if (leeway_.level > 0 || leeway_.level != level)
+        redraw_ = std::max(redraw_, 1);
 }
 
 int edit(const Options& options)

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/brush.h"
 #include "app/history.h"
+#include "app/leeway.h"
 #include "app/method_trial.h"
 #include "app/options.h"
 #include "app/panel.h"
@@ -100,6 +101,8 @@ class Editor
     const std::string& bad_strand() const { return bad_strand_; }
     SDL_Window* window() const { return window_.sdl(); }
     int view_width() const { return view_width_; }
+    Leeway& leeway() { return leeway_; }
+    int refined() const { return refined_; } // pictures that the one on screen is the mean of
     const Waiting& waiting() const { return *waiting_; }
 
   private:
@@ -168,6 +171,8 @@ class Editor
     void keep_settings();
     void reset_hair();
     void note_resets();
+    void refine(FrameInput& input, bool still);
+    void give_way(double ms);
     void keep_view();
     void apply();          // what changed in style_
     void compare(bool on); // with the style as saved
@@ -186,6 +191,7 @@ class Editor
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     MethodTrial trial_;                          // of the ways to draw strands
+    Leeway leeway_;                              // while something is dragged
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
     Autosave autosave_;
     std::vector<Recovery> recoveries_; // that are still offered
@@ -225,7 +231,8 @@ class Editor
     std::string screenshot_size_ = "as shown", screenshot_name_; // the style's if empty; a number follows
     Intent intent_;
     bool unsaved_ = false, paused_ = false, step_once_ = false, closed_ = false;
-    int redraw_ = 1; // frames that are still to be drawn though time may stand still
+    int refined_ = 0; // pictures of what stands still, that are shown as one
+    int redraw_ = 1;  // frames that are still to be drawn though time may stand still
     bool show_panel_ = true, show_times_ = false, show_help_ = false, show_history_ = false, comparing_ = false,
          ask_save_as_ = false, ask_open_ = false, transparent_ = false;
     bool message_is_error_ = false;

@@ -300,6 +300,7 @@ void Editor::take_settings()
     panel_.locked = settings_.locked;
     show_panel_ = settings_.panel;
     show_history_ = settings_.history;
+    leeway_.allowed = settings_.give_way;
     if (settings_.browser)
         browse(true);
     SDL_Rect room;
@@ -321,6 +322,7 @@ void Editor::keep_settings()
     SDL_GetWindowSize(window_.sdl(), &current.width, &current.height);
     current.panel = show_panel_;
     current.history = show_history_;
+    current.give_way = leeway_.allowed;
     current.browser = browser_.shown;
     current.folded = panel_.folded;
     current.locked = panel_.locked;

@@ -198,6 +198,11 @@ void Editor::draw_tools()
             ImGui::PopStyleColor();
         explain(fmt::format("{}: moves the head so; esc stops it", key));
     }
+    ImGui::SameLine();
+    ImGui::Checkbox("give way", &leeway_.allowed);
+    explain(fmt::format("Draws fewer and wider strands while you drag something and a frame takes longer than {:.0f} "
+                        "ms; they come back in steps when the hand rests. Files never know of it.",
+                        kFrameWanted));
     if (button("Screenshot", "p, F12: what the view shows, without windows, into the folder that coif was started in"))
         screenshot();
     ImGui::SameLine();
@@ -292,6 +297,10 @@ void Editor::draw_status()
         ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
     ImGui::TextDisabled("%s", trial_.said(style_.params).c_str());
+    if (const std::string given = leeway_text(leeway_); !given.empty())
+        ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.4f, 1.0f), "%s", given.c_str());
+    else if (refined_ > 1)
+        ImGui::TextDisabled("still: the mean of %d pictures", refined_);
     const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
     if (!simulation_->quality().said.empty())

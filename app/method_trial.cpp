@@ -38,7 +38,8 @@ void MethodTrial::show(Renderer& renderer, FrameInput& frame, int width, int hei
     const auto begin = std::chrono::steady_clock::now();
     renderer.show(frame, width, height);
     glFinish();
-    ms_[way].push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    ms_[way].push_back(took.count() / frame.samples);
     if (ms_[way].size() == kWarm)
         ms_[way].front() = INFINITY;
 }

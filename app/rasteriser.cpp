@@ -48,7 +48,7 @@ static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view
     frame.near = view.near;
     frame.depth_at_infinity = 0.5f + 0.5f * (view.far + view.near) / (view.far - view.near);
     frame.depth_over = -view.far * view.near / (view.far - view.near);
-    frame.kept = kept_share(strands, view, least_width);
+    frame.kept = strands.kept * kept_share(strands, view, least_width);
     frame.width = view.width;
     frame.height = view.height;
     frame.tiles_x = (view.width + TILE - 1) / TILE;

@@ -33,6 +33,7 @@ struct RasterStrands
     std::vector<float4> braids; // braid_values() of app/renderer.h
     std::vector<float> values;  // one a node on the ramp; empty: the hair has its own colours
     std::vector<float4> ramp;   // RAMP colours
+    float kept = 1.0f;          // share of them that is drawn, each as much wider
 };
 
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.

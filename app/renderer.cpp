@@ -342,6 +342,7 @@ void Renderer::draw_strands(const FrameInput& frame)
     glUniform1i(program.uniform("braids"), 4);
     glActiveTexture(GL_TEXTURE0);
     glUniform1i(program.uniform("braided"), braided_);
+    glUniform1f(program.uniform("widening"), 1.0f / frame.kept);
     glUniform1i(program.uniform("nodes"), frame.simulation->solver().groom().nodes);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -498,26 +499,31 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
     if (samples > 0)
         prepare(single_, part.width, part.height, 0, GL_RGBA16F, depth_is_read ? depth_format : 0);
     const GLuint one_sample = samples > 0 ? single_.texture : scene_.texture;
-    if (frame.samples == 1)
+    if (frame.samples == 1 && frame.before == 0)
     {
         draw(frame, whole_width, whole_height, part, glm::vec2(0.0f));
         return one_sample;
     }
     prepare(sum_, part.width, part.height, 0, GL_RGBA32F);
-    glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
-    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
+    if (frame.before == 0)
+    {
+        glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
+        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    const float all = float(frame.before + frame.samples);
     for (int i = 0; i < frame.samples; ++i)
     {
-        draw(frame, whole_width, whole_height, part, jitter_of(i));
+        draw(frame, whole_width, whole_height, part, jitter_of(frame.before + i));
         glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
         glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE, GL_ONE);
+        glBlendColor(0.0f, 0.0f, 0.0f, i == 0 ? float(frame.before) / all : 1.0f); // what is there gives way once
+        glBlendFunc(GL_ONE, GL_CONSTANT_ALPHA);
         glUseProgram(programs_->add.id());
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, one_sample);
         glUniform1i(programs_->add.uniform("picture"), 0);
-        glUniform1f(programs_->add.uniform("share"), 1.0f / float(frame.samples));
+        glUniform1f(programs_->add.uniform("share"), 1.0f / all);
         glBindVertexArray(empty_array_);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDisable(GL_BLEND);

@@ -41,6 +41,8 @@ struct FrameInput
     StrandColors colors;      // instead of the hair's own, where render.colors asks for them
     bool transparent = false; // no backdrop: alpha instead
     int samples = 1;          // jittered pictures that are averaged
+    int before = 0;           // pictures of the same input and size that show() has drawn last, averaged in as well
+    float kept = 1.0f;        // share of the strands that are drawn, each as much wider
 
     int light_resolution() const; // side of optical_depth; 0 without shadow
 };

@@ -129,7 +129,9 @@ void Renderer::upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 fo
         order_.emplace_back(std::isfinite(depth) ? -depth : 0.0f, s * kPieces + piece);
     };
     for (unsigned s = 0; s < strands; ++s)
-        if (const unsigned ring = at_ring(s))
+        if (STRAND_TURN(s) >= frame.kept)
+            continue;
+        else if (const unsigned ring = at_ring(s))
         {
             const TiedStrand& tied = groom.tied[s];
             const Tail& tail = groom.tails[size_t(tied.tail)];
@@ -251,7 +253,7 @@ void Renderer::upload(const FrameInput& frame)
         if (!rasteriser_ || rasteriser_->device().context() != solver.device().context())
             rasteriser_ = std::make_unique<Rasteriser>(solver.device());
         rastered_ = std::make_unique<RasterStrands>(
-            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}});
+            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}, frame.kept});
         for (int i = 0; i < RAMP && !rastered_->values.empty(); ++i)
         {
             const glm::vec3 color = ramp_color((float(i) + 0.5f) / float(RAMP));

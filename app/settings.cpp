@@ -52,6 +52,8 @@ Settings parse_settings(const std::string& text)
             settings.history = value == "1";
         else if (key == "browser")
             settings.browser = value == "1";
+        else if (key == "give_way")
+            settings.give_way = value != "0";
         else if (key == "locked" && find_param(value))
             settings.locked.insert(value);
         else if (key == "folded" &&
@@ -63,8 +65,9 @@ Settings parse_settings(const std::string& text)
 
 std::string settings_text(const Settings& settings)
 {
-    std::string text = fmt::format("{}\nwidth={}\nheight={}\npanel={:d}\nhistory={:d}\nbrowser={:d}\n", kOwnSection,
-                                   settings.width, settings.height, settings.panel, settings.history, settings.browser);
+    std::string text = fmt::format("{}\nwidth={}\nheight={}\npanel={:d}\nhistory={:d}\nbrowser={:d}\ngive_way={:d}\n",
+                                   kOwnSection, settings.width, settings.height, settings.panel, settings.history,
+                                   settings.browser, settings.give_way);
     for (const std::string& group : settings.folded)
         text += "folded=" + group + "\n";
     for (const std::string& path : settings.locked)

@@ -11,6 +11,7 @@ struct Settings
 {
     int width = 0, height = 0; // of the window; 0: never said
     bool panel = true, history = false, browser = false;
+    bool give_way = true;                 // app/leeway.h
     std::set<std::string> folded, locked; // groups of the panel; parameters that chance leaves alone
     std::string windows;                  // Dear ImGui's own text, windows only
     bool operator==(const Settings&) const = default;

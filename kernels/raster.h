@@ -20,6 +20,10 @@
 #define BLOCK 16 // pixels a side of what is hidden or not
 
 #define MOST_PIECES 30
+
+// A number in [0, 1) of each strand, of which some are drawn: those below the share. It hangs on nothing but the
+// strand's number, and any number of neighbours is evenly spread (Weyl's sequence of the golden section).
+#define STRAND_TURN(strand) ((float)(((unsigned)(strand)*2654435769u) >> 8) * (1.0f / 16777216.0f))
 #define RAMP 64 // colours that tell a value
 
 #ifdef __cplusplus

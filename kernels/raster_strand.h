@@ -106,8 +106,7 @@ static inline float widening(int strand, constant RasterFrame* frame)
 {
     if (frame->kept >= 1.0f)
         return 1.0f;
-    // The golden section leaves any number of neighbours evenly spread (Weyl's sequence).
-    const float turn = (float)(((uint)strand * 2654435769u) >> 8) * (1.0f / 16777216.0f);
+    const float turn = STRAND_TURN(strand);
     const float begin = frame->kept * (1.0f - FADE), span = fmax(frame->kept * 2.0f * FADE, 1e-6f);
     // Of those between begin and begin + span half are left on the whole.
     return clamp((begin + span - turn) / span, 0.0f, 1.0f) / frame->kept;

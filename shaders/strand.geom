@@ -20,6 +20,7 @@ uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
 #include "look.glsl"
 #include "braid.glsl"
 
+uniform float widening;         // of strands, for those that are left out
 uniform sampler1D ramp;         // colours that tell a value, app/strand_colors.h
 uniform isamplerBuffer leaders; // the strand that leads each strand's clump, where there are clumps
 
@@ -146,7 +147,7 @@ void main()
         float size = frame.camera_position.w * length(to_camera); // of a pixel, here
         vec3 side = cross(tangent, to_camera);
         side *= inversesqrt(max(dot(side, side), 1e-20));
-        float width = ribbon_width(look.width, along) / size;
+        float width = widening * ribbon_width(look.width, along) / size;
         float half_drawn = 0.5 * max(width, 1.0) + 0.5;
 
         vec3 hair = mix(look.root_color, look.tip_color, profile_at(params.look_color_along, along)) * brightness;

@@ -146,6 +146,31 @@ TEST_F(EditorWindow, space_pauses_and_a_full_stop_takes_one_step)
     EXPECT_TRUE(until([&] { return editor->simulation().steps() == steps + 1; }));
 }
 
+TEST_F(EditorWindow, what_stands_still_is_refined_and_then_left_alone)
+{
+    xdotool("mousemove " + at(100.0, 650.0));
+    xdotool("key space");
+    ASSERT_TRUE(until([&] { return editor->paused(); }));
+    ASSERT_TRUE(until([&] { return editor->refined() == 16; }));
+    frames(10);
+    EXPECT_EQ(editor->refined(), 16);
+    shoot("refined");
+    slide("root.lift", 0.6, 0.3); // paused, hair is still shaped
+    EXPECT_LT(editor->refined(), 16) << "what changes is drawn anew";
+    EXPECT_TRUE(until([&] { return editor->refined() == 16; }));
+}
+
+TEST_F(EditorWindow, strands_left_out_while_dragging_come_back_when_the_hand_rests)
+{
+    drag(700.0, 40.0, 720.0, 60.0); // beside the head
+    editor->leeway().level = 3;
+    frames(2);
+    shoot("leeway");
+    editor->leeway().level = 3;
+    release();
+    EXPECT_TRUE(until([&] { return editor->leeway().level == 0; }));
+}
+
 TEST_F(EditorWindow, a_broken_file_leaves_the_last_good_style_with_its_message)
 {
     std::ofstream("broken.toml") << "[strand]\nlenght = 0.2\n";

@@ -343,11 +343,16 @@ TEST_F(EditorWindow, the_window_is_arranged_as_it_was_left)
     xdotool("key u");
     frames(5);
     SDL_SetWindowSize(editor->window(), 1100, 700);
-    frames(5);
+    int width = 0, height = 0;
+    EXPECT_TRUE(until(
+        [&]
+        {
+            SDL_GetWindowSize(editor->window(), &width, &height);
+            return width == 1100 && height == 700;
+        }));
     start();
     EXPECT_TRUE(editor->panel().folded.contains("strand"));
     EXPECT_FALSE(editor->panel().places.contains("strand.length"));
-    int width = 0, height = 0;
     SDL_GetWindowSize(editor->window(), &width, &height);
     EXPECT_EQ(width, 1100);
     EXPECT_EQ(height, 700);

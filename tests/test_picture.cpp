@@ -102,6 +102,41 @@ TEST_F(Picture, EqualInputGivesEqualPictures)
     EXPECT_GT(brightness(first), 10.0);
 }
 
+// As the editor shows what stands still.
+TEST_F(Picture, samples_drawn_a_few_at_a_time_are_those_drawn_at_once)
+{
+    FrameInput frame = frame_of(small_style());
+    frame.samples = 6;
+    const Image at_once = renderer->picture(frame, 320, 180);
+    frame.samples = 2;
+    Image first, last;
+    for (frame.before = 0; frame.before < 6; frame.before += 2)
+    {
+        last = renderer->picture(frame, 320, 180);
+        if (frame.before == 0)
+            first = last;
+    }
+    EXPECT_GT(mean_difference(first, at_once), 0.05) << "more samples are another picture";
+    for (size_t i = 0; i < last.pixels.size(); ++i)
+        ASSERT_NEAR(int(last.pixels[i]), int(at_once.pixels[i]), 1) << i;
+}
+
+// As the editor draws while something is dragged: what is left out is made up for by width.
+TEST_F(Picture, half_the_strands_cover_as_much)
+{
+    for (const char* method : {"render.method=geometry", "render.method=opencl"})
+    {
+        FrameInput frame = frame_of(
+            small_style({"look.root_color='#ffffff'", "look.tip_color='#ffffff'", "look.self_shadow=0", method}));
+        frame.samples = 4;
+        const Image all = renderer->picture(frame, 320, 180);
+        frame.kept = 0.5f;
+        const Image half = renderer->picture(frame, 320, 180);
+        EXPECT_NEAR(brightness(half), brightness(all), 0.04 * brightness(all)) << method;
+        EXPECT_GT(mean_difference(half, all), 0.1) << method;
+    }
+}
+
 TEST_F(Picture, ATransparentOneHasAlphaInsteadOfABackdrop)
 {
     FrameInput frame = frame_of(small_style());

@@ -164,6 +164,7 @@ TEST(Settings, come_back_as_they_were_kept)
     settings.height = 900;
     settings.panel = false;
     settings.browser = true;
+    settings.give_way = false;
     settings.folded = {"strand", "wave"};
     settings.locked = {"strand.length"};
     settings.windows = "[Window][presets]\nPos=60,60\nSize=400,300\nCollapsed=0\n\n";
