@@ -81,7 +81,7 @@ static inline void find_planes(Bodies* bodies, HeadPose begin, const Points* x, 
                                int substeps)
 {
     const real twice = (real)(2.0f * (float)substeps);
-    for (int i = 2; i < NODES; ++i)
+    for (int i = 1; i < NODES; ++i)
     {
         const Points p = into_head(begin, x[i]), way = times(twice, minus(move[i], carried));
         const real distance = head_distance(bodies->grid, p, &bodies->normal[i], bodies->info);

@@ -18,6 +18,9 @@
 
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
+// Of a strand's length, how much nearer to the surface it comes where its root lies inside a body, for nobody moves a
+// root: were it asked for more than it can do, it would never come to rest.
+#define GROWS_OUT 0.6667f
 
 // The pace that the tension in this block asks for: h w_max <= courant with w_max^2 = 4 times the largest multiplier
 // (transverse waves of a chain). Faster at once, slower only when well below: order two lives from equal substeps.
@@ -141,9 +144,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const Points carried = points((real)(info->origin_move.x), (real)(info->origin_move.y), (real)(info->origin_move.z));
     find_planes(&near, begin, x, v, times((real)(1.0f / (float)substeps), carried), substeps);
 #endif
-    // Hair that starts inside a body is let out at a bounded speed.
+    // Hair that starts inside a body is let out at a bounded speed; where its root lies inside, along its length.
     real inside[NODES];
-    for (int i = 2; i < NODES && any_near(&near); ++i)
+    for (int i = 1; i < NODES && any_near(&near); ++i)
     {
         real gap = nearest_capsule(&near, begin, x[i]).distance;
 #ifdef BODY_GRID
@@ -219,7 +222,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #ifdef CONTACT
         for (int i = 2; i < NODES && any_near(&near); ++i)
         {
-            inside[i] = fmax(inside[i] - info->push_out * h, (real)(0.0f));
+            const real still = inside[1] - GROWS_OUT * (float)(i - 1) * rest;
+            inside[i] = fmax(inside[i] - info->push_out * h, fmax(still, (real)(0.0f)));
             Points pushed = move[i];
 #ifdef BODY_GRID
             push_off_plane(&near, last, now, i, x[i], &pushed, inside[i], params->forces_friction);

@@ -203,12 +203,14 @@ void Simulation::drape()
     thick.forces_friction *= 0.5f;
     const double longest = double(solver_->groom().longest); // m
     const float4& wind = own.forces_wind;
-    const bool gusts = own.forces_turbulence > 0.0f && (wind.x != 0.0f || wind.y != 0.0f || wind.z != 0.0f);
+    const bool windy = wind.x != 0.0f || wind.y != 0.0f || wind.z != 0.0f;
+    const bool gusts = own.forces_turbulence > 0.0f && windy;
     const double calm = (gusts ? 0.01 : 0.001) * longest; // m/s: they move it anyhow
     // Wind, or a strand that jerks between bodies, lets hair never rest: it has fallen as far as it will once it gets
-    // no calmer. What falls twice its length through that air, at the same speed all the way, must not seem so.
+    // no calmer. What falls twice its length through that air, at the same speed all the way, must not seem so; nor,
+    // where no wind blows, a strand that gives way slowly under another's push and then at once.
     const double fall = 2.0 * longest * kThick / std::max(kGravity * std::abs(double(own.forces_gravity)), 1e-3); // s
-    const int patience = int(std::clamp(60.0 * fall, 80.0, double(kMost)));
+    const int patience = int(std::clamp(60.0 * fall, windy ? 80.0 : 160.0, double(kMost)));
     const int falls = style_.params.bending_hold == 0.0f ? 2 : 4;
     for (int f = 0; f < falls; ++f)
     {

@@ -317,7 +317,8 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
     if (step.on_grid || !step.bodies.empty())
         for (size_t i = size_t(strand.held); i < size_t(n); ++i)
         {
-            inside[i] = std::max(inside[i] - double(step.info.push_out) * h, 0.0);
+            const double still = inside[1] - 0.6667 * double(i - 1) * strand.rest;
+            inside[i] = std::max({inside[i] - double(step.info.push_out) * h, still, 0.0});
             push_and_rub(step, last, now, strand.x[i], ground[i], move[i], inside[i], round);
         }
 
@@ -411,7 +412,7 @@ double simulate_direct(DirectStrands& strands, const DirectStep& step, const Rou
         std::vector<double> inside(size_t(n), 0.0);
         std::vector<Ground> ground(static_cast<size_t>(n));
         const Vec carry(step.info.origin_move.x, step.info.origin_move.y, step.info.origin_move.z);
-        for (size_t i = 2; i < size_t(n); ++i)
+        for (size_t i = 1; i < size_t(n); ++i)
         {
             ground[i] = ground_of(step, begin, strand.x[i], double(step.now.seconds) * strand.v[i] - carry, round);
             const double gap = std::min(ground[i].distance, nearest_capsule(step, begin, strand.x[i]).distance);

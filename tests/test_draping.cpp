@@ -54,6 +54,28 @@ TEST(Draping, ends_where_hair_gets_no_calmer)
     EXPECT_LT(shares(style).size(), 40u) << "it flutters, if little";
 }
 
+// The undercut's scalp has roots in the hollow behind the ears, which the head's grid fills: a millimetre deep.
+TEST(Draping, hair_whose_roots_lie_inside_the_head_comes_to_rest)
+{
+    Simulation simulation(test_device(), few_drawn(load_hairstyle(find_style("undercut"))));
+    for (int i = 0; i < 240 && !simulation.solver().asleep(); ++i)
+        simulation.step(simulation.hand());
+    EXPECT_TRUE(simulation.solver().asleep());
+}
+
+// Clumped curls push each other: one gives way slowly at first.
+TEST(Draping, hair_that_gives_way_late_has_done_so_before_it_is_seen)
+{
+    Simulation simulation(test_device(), few_drawn(load_hairstyle(find_style("curly"))));
+    double fastest = 0.0;
+    for (int i = 0; i < 60; ++i)
+    {
+        simulation.step(simulation.hand());
+        fastest = std::max(fastest, simulation.solver().fastest());
+    }
+    EXPECT_LT(fastest, 0.01) << "m/s";
+}
+
 TEST(Draping, long_hair_falls_all_the_way)
 {
     Hairstyle style = few_drawn({});

@@ -52,6 +52,7 @@ std::vector<Row> measure_catenary(const Measuring&);    // A9: rest.cpp
 std::vector<Row> measure_order(const Measuring&);       // A10: trajectories.cpp
 std::vector<Row> measure_energy(const Measuring&);      // A11: closed_forms.cpp
 std::vector<Row> measure_twin(const Measuring&);        // A14: trajectories.cpp
+std::vector<Row> measure_sag(const Measuring&);         // presets.cpp
 std::vector<Row> measure_solvers(const Measuring&);     // one against another: sweeps.cpp, as all knobs of a strand
 std::vector<Row> measure_iterations(const Measuring&);
 std::vector<Row> measure_substeps(const Measuring&);

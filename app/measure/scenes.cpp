@@ -22,6 +22,7 @@ const std::vector<Scene>& scenes()
         {"A12", "Hair that follows guides against hair that is simulated", measure_interpolation},
         {"A13", "Repulsion against where the grid lies", measure_voxels},
         {"A14", "Float against double precision", measure_twin},
+        {"sag", "Presets, ten seconds still", measure_sag},
         {"solver", "Solvers and models: error against price", measure_solvers},
         {"iterations", "Sweeps of pbd", measure_iterations},
         {"substeps", "Substeps of the direct solver", measure_substeps},
