@@ -172,8 +172,8 @@ static std::vector<Place> places_of(int nodes, int pieces)
 
 Taken taken(const Simulation& simulation, bool guides, int points)
 {
-    constexpr float kStray = 1e-4f; // m
-    constexpr int kMostPoints = 256;
+    constexpr float kStray = 5e-4f; // m
+    constexpr int kMostPoints = 128;
     Taken wanted{guides, points, 1};
     const int nodes = simulation.solver().groom().nodes;
     if (guides)

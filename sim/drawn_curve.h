@@ -15,7 +15,7 @@ struct Taken
     int pieces = 1;      // that each segment is cut into first, so that what is laid on it is not lost
 };
 
-// Fills in `pieces`: so many that a chord strays from the curve by 0.1 mm at most, as far as a strand has 256 points.
+// Fills in `pieces`: so many that a chord strays from the curve by 0.5 mm at most, as far as a strand has 128 points.
 Taken taken(const Simulation& simulation, bool guides, int points);
 
 // In the world, m; the solver must have drawn. Widths and colours are those of root, tip and profiles before any light,

@@ -18,18 +18,21 @@ static void add_point(NewFile& file, const char* word, const glm::vec3& at)
 void write_obj(NewFile& file, const Curves& curves, const FileWords& words)
 {
     file.add("# coif; " + words.units + "; " + words.axes + "\n");
-    for (size_t i = 0; i < curves.points(); ++i)
-    {
-        add_point(file, "v", curves.position[i]);
-        add_point(file, "", curves.color[i]);
-        file.add("\n");
-    }
     const std::vector<size_t> first = first_points(curves);
+    size_t before = 0; // points in the file
     for (const Part& part : parts_of(curves, false))
     {
         file.add("o " + (part.name.empty() ? kHairName : part.name) + "\n");
         for (const uint32_t s : part.strand)
-            for (size_t k = first[s] + 1; k < first[s] + curves.count[s]; ++k)
+            for (size_t i = first[s]; i < first[s] + curves.count[s]; ++i)
+            {
+                add_point(file, "v", curves.position[i]);
+                add_point(file, "", curves.color[i]);
+                file.add("\n");
+            }
+        for (const uint32_t s : part.strand)
+        {
+            for (size_t k = before + 1; k < before + curves.count[s]; ++k) // they count from 1
             {
                 file.add("l ");
                 file.number(k);
@@ -37,6 +40,8 @@ void write_obj(NewFile& file, const Curves& curves, const FileWords& words)
                 file.number(k + 1);
                 file.add("\n");
             }
+            before += curves.count[s];
+        }
     }
 }
 
