@@ -97,71 +97,95 @@ std::vector<std::string> export_words(const ExportPlan& plan, const Curves& curv
     return said;
 }
 
-void write_export(const ExportPlan& plan, const Curves& curves, const Cache* cache)
+std::string write_export(const ExportPlan& plan, const Curves& curves, const Cache* cache)
 {
+    const auto began = std::chrono::steady_clock::now();
     NewFile file(plan.file);
     write_curves(file, *plan.format, curves, plan.words, cache);
+    const uint64_t bytes = file.size();
     file.finish();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+    return fmt::format("{}: {}{}, in {:.2g} s", plan.file.string(), size_text({bytes, true}),
+                       cache ? fmt::format(", {} frames", cache->count) : "", spent.count());
 }
 
-int export_style(const Options& options, const ExportOptions& wanted, const SequenceOptions& frames)
+std::vector<Frame> export_moments(ExportPlan& plan, const SequenceOptions& frames, double time)
 {
-    const Hairstyle style = load_style(options);
-    const ExportPlan plan = plan_export(options.output, wanted, style);
-    if (!(options.seconds >= 0.0 && options.seconds <= kLongestShot))
-        throw fail("--time {}: expected seconds from 0 to {}", options.seconds, kLongestShot);
-    if (frames.wanted() && !plan.format->caches)
+    plan.cache = frames.wanted();
+    if (!plan.cache)
+        return {{0, time, 0.0}};
+    if (!plan.format->caches)
         throw fail("--frames: a {} holds one pose; write .usda or .abc, or leave it out", plan.format->suffix);
-    std::vector<Frame> moments = {{0, options.seconds, 0.0}};
-    if (frames.wanted())
-        moments = frames_of(frames, options.seconds);
-    check_folder(plan.file);
-    const Motion motion = find_motion(options.motion);
-    const Device device = open_device(options);
-    const Progress progress;
-    progress.say(style.name() + ": falls to rest");
-    Simulation simulation(device, style,
-                          [&](double share)
-                          { progress.say(fmt::format("{}: falls to rest, {:.0f} %", style.name(), 100.0 * share)); });
+    return frames_of(frames, time);
+}
+
+Cache times_of(const std::vector<Frame>& moments, double fps)
+{
+    return {moments[0].number, int(moments.size()), fps, {}};
+}
+
+std::string export_motion(const Device& device, const Hairstyle& style, const ExportPlan& plan, const Motion& motion,
+                          const std::vector<Frame>& moments, const Cache& times, const ExportSays& says)
+{
+    Simulation simulation(device, style, [&](double share) { says.doing(style.name() + " falls to rest", share); });
     simulation.play(motion);
     const auto play_to = [&](double seconds)
     {
         const long steps = std::lround(seconds / simulation.step_seconds());
+        const long from = simulation.steps();
         while (simulation.steps() < steps)
         {
             simulation.step(simulation.hand());
             if (simulation.steps() % 16 == 1)
+            {
                 simulation.solver().take_times(); // lets the queue's uploads go
+                if (moments.size() == 1)
+                    says.doing(style.name() + " moves", double(simulation.steps() - from) / double(steps - from));
+            }
         }
         simulation.solver().draw();
     };
-    progress.say(style.name() + ": moves");
     play_to(moments[0].seconds);
     const ExportHair hair = take_hair(simulation, plan);
-    Cache cache{moments[0].number, int(moments.size()), frames.fps, {}};
+    Cache cache = times;
     cache.positions = [&](int frame, std::vector<glm::vec3>& position)
     {
         const int done = frame - cache.first;
-        progress.say(fmt::format("frame {} of {}", done + 1, cache.count));
+        says.doing(fmt::format("frame {} of {}", done + 1, cache.count), double(done) / cache.count);
         play_to(moments[size_t(done)].seconds);
         positions_of(simulation, hair.taken, position);
         check_positions(hair.curves, position, frame);
         place(position, plan.placement);
     };
-    const Cache* moving = frames.wanted() ? &cache : nullptr;
+    const Cache* moving = plan.cache ? &cache : nullptr;
     const FileSize size = size_of(*plan.format, hair.curves, plan.words, moving);
-    progress.clear();
-    for (const std::string& line : export_words(plan, hair.curves, size))
-        fmt::print(stderr, "{}\n", line);
+    says.words(export_words(plan, hair.curves, size));
     check_room(plan.file, size);
-    const auto began = std::chrono::steady_clock::now();
-    write_export(plan, hair.curves, moving);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+    return write_export(plan, hair.curves, moving);
+}
+
+int export_style(const Options& options, const ExportOptions& wanted, const SequenceOptions& frames)
+{
+    const Hairstyle style = load_style(options);
+    ExportPlan plan = plan_export(options.output, wanted, style);
+    if (!(options.seconds >= 0.0 && options.seconds <= kLongestShot))
+        throw fail("--time {}: expected seconds from 0 to {}", options.seconds, kLongestShot);
+    const std::vector<Frame> moments = export_moments(plan, frames, options.seconds);
+    check_folder(plan.file);
+    const Motion motion = find_motion(options.motion);
+    const Device device = open_device(options);
+    const Progress progress;
+    ExportSays says;
+    says.doing = [&](const std::string& doing, double share)
+    { progress.say(fmt::format("{}, {:.0f} %", doing, 100.0 * share)); };
+    says.words = [&](const std::vector<std::string>& words)
+    {
+        progress.clear();
+        fmt::print(stderr, "{}\n", fmt::join(words, "\n"));
+    };
+    const std::string wrote = export_motion(device, style, plan, motion, moments, times_of(moments, frames.fps), says);
     progress.clear();
-    std::error_code error;
-    fmt::print(stderr, "wrote {}: {}{}, in {:.2g} s\n", options.output,
-               size_text({fs::file_size(plan.file, error), true}),
-               moving ? fmt::format(", {} frames", moments.size()) : "", spent.count());
+    fmt::print(stderr, "wrote {}\n", wrote);
     return 0;
 }
 
