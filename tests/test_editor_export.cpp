@@ -25,7 +25,8 @@ TEST_F(EditorWindow, hair_is_exported_as_it_is_now_while_the_window_goes_on)
 TEST_F(EditorWindow, a_motion_is_exported_with_progress_and_can_be_stopped)
 {
     xdotool("key ctrl+e");
-    ASSERT_TRUE(until([&] { return editor->exporting().shown; }));
+    ASSERT_TRUE(within(20.0, [&] { return !editor->exporting().words.empty(); })) << "the window stands";
+    frames(3);
     const auto type_file = [&](const std::string& name)
     {
         click(editor->exporting().places.at("file"));
