@@ -125,6 +125,49 @@ TEST(ExportedHair, curls_and_frizz_are_in_it_as_the_oracle_lays_them_on)
     EXPECT_GT(farthest, 0.005);
 }
 
+TEST(ExportedHair, braids_are_plaited_as_the_oracle_plaits_them)
+{
+    Hairstyle style = load_hairstyle(fs::path(COIF_SOURCE_FOLDER) / "hairstyles" / "braid.toml");
+    style.params.interpolation_strands = 400;
+    const auto simulation = running(style, 0.1);
+    const Solver& solver = simulation->solver();
+    const Groom& groom = solver.groom();
+    const Taken wanted = taken(*simulation, false, 0);
+    const Curves curves = curves_of(*simulation, wanted);
+    const Mapped positions = solver.drawn_positions(), frames = solver.drawn_frames();
+    size_t plaited = 0;
+    for (size_t s = 0; s < groom.tied.size(); ++s)
+    {
+        const TiedStrand& tied = groom.tied[s];
+        const Tail& tail = groom.tails[size_t(tied.tail)];
+        if (tied.ring == 0.0f || tail.axis.w == 0.0f)
+            continue;
+        for (int k = 2; k < groom.nodes - 1; ++k)
+        {
+            const float4 *at = positions.as<float4>() + s * size_t(groom.nodes) + size_t(k),
+                         *frame = frames.as<float4>() + s * size_t(groom.nodes) + size_t(k);
+            // The strand is cut at a share of the whole: where its node is on that, from the root.
+            const double node = 1.0 + double(groom.drawn[s].root.w) * (k - 1);
+            const double behind =
+                (node - double(tied.ring)) * double(tail.length) / (groom.nodes - 1 - double(tied.ring));
+            if (behind < 0.002)
+                continue;
+            const glm::dvec3 tangent = glm::normalize(vec(at[1]) - vec(at[-1]));
+            glm::dvec3 normal = vec(frame[0]);
+            normal = glm::normalize(normal - tangent * glm::dot(tangent, normal));
+            const glm::dvec3 by = oracle::braid_share(behind, tail.axis.w) *
+                                  oracle::braid_offset(behind, vec(tied.place), tail.axis.w, tail.side.w, tail.depth,
+                                                       tail.plait, tail.bound);
+            const glm::dvec3 there = vec(at[0]) + by.x * normal + by.y * glm::cross(tangent, normal) + by.z * tangent +
+                                     glm::dvec3(solver.head().origin);
+            const size_t i = s * curves.count[s] + size_t(wanted.pieces) * size_t(k - 1);
+            ASSERT_NEAR(glm::distance(glm::dvec3(curves.position[i]), there), 0.0, 5e-6) << s << " " << k;
+            ++plaited;
+        }
+    }
+    EXPECT_GT(plaited, 1000u);
+}
+
 TEST(ExportedHair, points_of_equal_lengths_lie_on_the_curve_from_root_to_tip)
 {
     const auto simulation = running(small_style(), 0.3);
