@@ -3,6 +3,7 @@
 #include "app/advise/advise.h"
 #include "app/bench/bench.h"
 #include "app/editor.h"
+#include "app/export.h"
 #include "app/film.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
@@ -167,6 +168,28 @@ int run_command(int argc, char** argv)
         ->add_option("--turntable", sequence.turntable, "Views in a turn about the head, one a picture or a frame")
         ->check(CLI::PositiveNumber);
 
+    CLI::App* export_command =
+        with_device(common(app.add_subcommand("export", "Write the hair as curves that other tools read"), true));
+    ExportOptions exported;
+    export_command
+        ->add_option("-o,--output", options.output,
+                     "File to write: .usda .abc .hair .tfx .obj .ply .glb .data .pbrt .mitsuba.txt")
+        ->required();
+    export_command->add_option("--for", exported.target,
+                               "unreal, unity, blender, maya or houdini: axes, units and curves as it takes them");
+    export_command->add_option("--strands", exported.strands, "drawn, or the guides under them")->capture_default_str();
+    export_command->add_option("--points", exported.points,
+                               "Points of a strand, at equal lengths; the default is its nodes");
+    export_command->add_option("--curve", exported.curve, "linear or catmull_rom; the default is what the format has");
+    export_command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
+        ->capture_default_str();
+    CLI::Option* export_time =
+        export_command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
+    export_command
+        ->add_option("--frames", sequence.frames, "FIRST:LAST of the motion, both too: a cache, .usda or .abc")
+        ->excludes(export_time);
+    export_command->add_option("--fps", sequence.fps, "Frames a second of --frames")->capture_default_str();
+
     CLI::App* sheet_command =
         with_device(app.add_subcommand("sheet", "Draw many styles into one picture, each with its name"));
     SheetOptions sheeted;
@@ -291,6 +314,8 @@ int run_command(int argc, char** argv)
     parse_size(sheet_command->parsed() ? cell_size : size, shot);
     if (shot_command->parsed())
         return run_shot(options, shot, sequence);
+    if (export_command->parsed())
+        return export_style(options, exported, sequence);
     if (sheet_command->parsed())
         return sheet(options, shot, sheeted);
     if (report_command->parsed())

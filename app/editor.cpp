@@ -97,6 +97,7 @@ Editor::Editor(const Options& options)
 
 Editor::~Editor()
 {
+    exporting_.stop = true;
     next_keep_ = 0.0;
     keep_settings();
     browse(false);
@@ -198,6 +199,11 @@ void Editor::carry_out(const Intent& intent)
         take(*file);
     else if (const auto* wanted = std::get_if<Recover>(&intent))
         recover(wanted->which);
+    else if (std::holds_alternative<Close>(intent) && exporting_.writing.valid() && !exporting_.stop)
+    {
+        exporting_.stop = true; // the second wish is the answer; a pose is written to its end all the same
+        say("an export is being stopped; close again when it has said so", true);
+    }
     else if (std::holds_alternative<Close>(intent))
     {
         closed_ = true;
@@ -350,6 +356,7 @@ bool Editor::frame()
     last_tick_ = tick;
     guarded([&] { advance(seconds); });
     guarded([&] { look_at_files(); });
+    look_at_export();
     if (browser_.shown && thumbnails_ && thumbnails_->work())
         redraw_ = std::max(redraw_, kRedraw);
     keep_settings();

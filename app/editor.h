@@ -1,5 +1,6 @@
 #pragma once
 #include "app/brush.h"
+#include "app/export.h"
 #include "app/history.h"
 #include "app/leeway.h"
 #include "app/method_trial.h"
@@ -17,7 +18,9 @@
 #include <SDL.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
+#include <future>
 #include <optional>
 #include <string>
 #include <variant>
@@ -51,6 +54,24 @@ struct Beside
     std::unique_ptr<Simulation> simulation;    // B alive, side by side with A
     std::unique_ptr<Renderer> renderer;        // a renderer keeps what it has sent to the driver
     double began = 0.0;                        // s of A's time when B's was 0
+    std::map<std::string, WidgetPlace> places; // of the last frame
+};
+
+// The window that writes hair for other tools, and what goes on for it beside the editor.
+struct Exporting
+{
+    bool shown = false;
+    ExportOptions wanted;
+    std::string file;
+    bool moves = false; // the motion, as a cache
+    SequenceOptions frames{"0:59", 30.0, 0};
+    std::string asked;              // what `words` or `trouble` are of
+    std::vector<std::string> words; // on what the file would be
+    std::string trouble;            // why there would be none
+    std::future<std::vector<std::string>> telling;
+    std::atomic<float> share = 0.0f; // of the writing
+    std::atomic<bool> stop = false;
+    std::future<std::string> writing;          // waits for its end before this goes
     std::map<std::string, WidgetPlace> places; // of the last frame
 };
 
@@ -104,6 +125,7 @@ class Editor
     Leeway& leeway() { return leeway_; }
     int refined() const { return refined_; } // pictures that the one on screen is the mean of
     const Waiting& waiting() const { return *waiting_; }
+    const Exporting& exporting() const { return exporting_; }
 
   private:
     struct Close
@@ -165,6 +187,11 @@ class Editor
     void draw_brush_aim();
     void draw_region_aim();
     void end_stroke(); // what the mouse held is let go: one edit, with a name of its own
+    void show_export(bool on);
+    void draw_export();
+    void ask_export_words();
+    void start_export();
+    void look_at_export();
     void draw_ring();
     void draw_variants();
     void take_settings();
@@ -241,6 +268,7 @@ class Editor
     long frames_ = 0;
     int view_width_ = 1, view_height_ = 1; // of the picture, beside the panel, in window units
     glm::dvec3 jumped_{0.0};
+    Exporting exporting_; // goes first: what it has begun reads the rest
 };
 
 } // namespace coif

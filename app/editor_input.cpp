@@ -27,6 +27,8 @@ void Editor::handle_key(const SDL_Keysym& key)
         undo_last();
     else if (control && key.sym == SDLK_o)
         ask_open_ = true;
+    else if (control && key.sym == SDLK_e)
+        show_export(!exporting_.shown);
     else if (control && key.sym == SDLK_q)
         carry_out(Close{});
     if (control)
@@ -72,6 +74,9 @@ void Editor::handle_key(const SDL_Keysym& key)
         break;
     case SDLK_b:
         browse(!browser_.shown);
+        break;
+    case SDLK_e:
+        show_export(!exporting_.shown);
         break;
     case SDLK_u:
         show_history_ = !show_history_;

@@ -35,6 +35,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "ctrl-s                save\n"
                             "ctrl-shift-s          save as\n"
                             "ctrl-o                open\n"
+                            "e, ctrl-e             export for other tools\n"
                             "b                     browse presets\n"
                             "a                     another style beside, morph\n"
                             "s                     shape: brushes, cut, freeze, variants\n"
@@ -81,6 +82,8 @@ void Editor::draw_ui()
         draw_brushes();
     if (!legend_.readings.empty())
         draw_legend();
+    if (exporting_.shown)
+        draw_export();
     draw_files();
     draw_dialogs();
 }
@@ -206,7 +209,10 @@ void Editor::draw_tools()
     if (button("Screenshot", "p, F12: what the view shows, without windows, into the folder that coif was started in"))
         screenshot();
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(110.0f);
+    if (toggle("Export", exporting_.shown, "e, ctrl-e: the hair as curves that other tools read"))
+        show_export(!exporting_.shown);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(80.0f);
     if (ImGui::BeginCombo("##size", screenshot_size_.c_str()))
     {
         for (const char* size : {"as shown", "1920x1080", "2048x2048", "3840x2160", "8192x8192"})
@@ -216,7 +222,7 @@ void Editor::draw_tools()
     }
     explain("Pixels of the picture");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(90.0f);
+    ImGui::SetNextItemWidth(70.0f);
     ImGui::InputTextWithHint("##picture", style_.name().c_str(), &screenshot_name_);
     explain("Name of the picture, a path if you like; a number and .png follow.");
     ImGui::SameLine();

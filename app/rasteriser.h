@@ -30,7 +30,7 @@ struct RasterStrands
     const Solver* solver = nullptr;
     HairParams params;          // as the device reads them
     std::vector<float> waves;   // wave_table() of sim/wave.h
-    std::vector<float4> braids; // braid_values() of app/renderer.h
+    std::vector<float4> braids; // braid_values() of sim/tied_hair.h
     std::vector<float> values;  // one a node on the ramp; empty: the hair has its own colours
     std::vector<float4> ramp;   // RAMP colours
     float kept = 1.0f;          // share of them that is drawn, each as much wider

@@ -50,10 +50,6 @@ struct FrameInput
 // Takes the views; waits for the device.
 FrameInput frame_input(const Simulation& simulation, const Camera& camera);
 
-// Three values a mixed strand for kernels/ribbon.h's Braid, or none: its place in its plait and m behind the ring at
-// its root; m behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
-std::vector<float4> braid_values(const Groom& groom);
-
 // What can draw the strands, as render.method lists it.
 enum Method
 {

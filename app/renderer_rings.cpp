@@ -1,6 +1,8 @@
 // The rings that gather hair, and the bands at the ends of braids.
 #include "app/renderer.h"
 
+#include "sim/tied_hair.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -87,29 +89,6 @@ void Renderer::draw_rings(const FrameInput& frame, const ShaderProgram& program)
         if (tie.braid && groom.tails[i].length > 0.0f)
             draw_band(end_of(frame, groom.tails[i], 0.6f * tie.thickness), tie, false);
     }
-}
-
-std::vector<float4> braid_values(const Groom& groom)
-{
-    const bool any = std::any_of(groom.tails.begin(), groom.tails.end(), [](auto& t) { return t.axis.w > 0.0f; });
-    std::vector<float4> values;
-    for (size_t i = 0; any && i < groom.tied.size(); ++i)
-    {
-        const TiedStrand& strand = groom.tied[i];
-        if (strand.ring == 0.0f || groom.tails[size_t(strand.tail)].axis.w == 0.0f)
-        {
-            values.insert(values.end(), 3, F4(0.0f, 0.0f, 0.0f, 0.0f)); // no pitch: no braid
-            continue;
-        }
-        const Tail& braid = groom.tails[size_t(strand.tail)];
-        const float per_node = braid.length / (float(groom.nodes - 1) - strand.ring);
-        const float4 place = strand.place;
-        values.push_back(F4(place.x, place.y, place.z, (1.0f - strand.ring) * per_node));
-        values.push_back(
-            F4(float(groom.nodes - 2) * groom.drawn[i].root.w * per_node, braid.axis.w, braid.side.w, braid.depth));
-        values.push_back(F4(braid.plait, braid.bound, 0.0f, 0.0f));
-    }
-    return values;
 }
 
 void Renderer::upload_braids(const FrameInput& frame)

@@ -2,6 +2,7 @@
 #include "app/renderer.h"
 
 #include "app/rasteriser.h"
+#include "sim/tied_hair.h"
 #include "sim/wave.h"
 
 #include <glm/geometric.hpp>

@@ -74,7 +74,7 @@ STRUCT(Braid)
     float pitch, swing, depth, plait, bound; // as braid_offset() takes them; pitch 0: no braid
 };
 
-// From the three values a strand that app/renderer_rings.cpp makes.
+// From the three values a strand of braid_values() (sim/tied_hair.h).
 CURVE_FUNCTION Braid braid_of(float4 a, float4 b, float4 c)
 {
     Braid braid;

@@ -53,4 +53,8 @@ struct RingPlace
 RingPlace ring_place(const TieGround& ground, glm::vec3 at, float height);
 float height_above(const TieGround& ground, glm::vec3 at); // negative inside
 
+// Three values a mixed strand for kernels/ribbon.h's Braid, or none: its place in its plait and m behind the ring at
+// its root; m behind the ring from root to tip, pitch, swing, depth; radius of a plait and where it is bound.
+std::vector<float4> braid_values(const Groom& groom);
+
 } // namespace coif
