@@ -1,4 +1,5 @@
 #pragma once
+#include "app/image.h"
 #include "app/shot.h"
 
 #include <optional>
@@ -30,6 +31,11 @@ SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int c
 
 // What stands under the cells: the styles' names, or, where two have the same, all of how they were called.
 std::vector<std::string> sheet_labels(const std::vector<std::string>& styles);
+std::vector<std::string> sheet_labels(const std::vector<std::string>& names, const std::vector<std::string>& calls);
+
+// A sheet without a cell, and a cell into its place; without a picture it says so.
+Image empty_sheet(const SheetLayout& at);
+void put_cell(Image& sheet, const SheetLayout& at, int cell, const Image* picture, const std::string& label);
 
 // A contact sheet of styles into options.output, `cell` each. A style that fails is told, and its cell says so. Returns
 // the exit status: 1 if one failed. Throws Error when all did, or for what is wrong with all.

@@ -43,10 +43,11 @@ Outcome random_styles(const Ground& ground)
     write_file(folder / "scalp.obj", small_scalp());
     std::string csv = "number,solver,rate,nodes,passed,stretch,penetration_mm,reach,finite,resets,seconds,fault\n";
     long failed = 0;
-    for (int number = 0; number < ground.styles; ++number)
+    const int begin = int(ground.from), end = int(ground.from + ground.styles);
+    for (int number = begin; number < end; ++number)
     {
         if (number % 10 == 0)
-            ground.say(fmt::format("style {} of {}, {} failed", number, ground.styles, failed));
+            ground.say(fmt::format("style {} of {}, {} failed", number - begin, ground.styles, failed));
         Hairstyle style = random_style(ground.seed, number, "scalp.obj");
         style.file = folder / fmt::format("{}.toml", number); // where its scalp lies
         const Motion motion = random_motion(ground.seed, number);
@@ -64,10 +65,11 @@ Outcome random_styles(const Ground& ground)
                     fmt::format("seed {} style {}, {}: {}", ground.seed, number, kSolvers[kind], trespass));
             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
             add(outcome.figures[kind], figures);
-            csv += fmt::format("{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f},\"{}\"\n", number, kSolvers[kind],
+            csv += fmt::format("{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},\"{}\"\n", number, kSolvers[kind],
                                style.params.solver_rate, style.params.strand_nodes, one.faults.empty(), figures.stretch,
                                1e3 * figures.penetration, figures.reach, figures.finite, figures.resets,
-                               seconds.count(), one.faults.empty() ? "" : one.faults.front());
+                               ground.untimed ? "" : fmt::format("{:.3f}", seconds.count()),
+                               one.faults.empty() ? "" : one.faults.front());
             if (one.faults.empty())
                 continue;
             ++failed;
@@ -76,8 +78,11 @@ Outcome random_styles(const Ground& ground)
             save_hairstyle(kept, folder / (name + ".toml"));
             write_file(folder / (name + "-motion.toml"), motion_text(motion));
             one.faults.front() +=
-                fmt::format("\n      again: coif report {0}.toml --motion {0}-motion.toml --seconds 1 --fps {1:.9g}",
-                            (folder / name).string(), style.params.solver_rate);
+                "\n      again: " +
+                (ground.keep
+                     ? fmt::format("coif report {0}.toml --motion {0}-motion.toml --seconds 1 --fps {1:.9g}",
+                                   (folder / name).string(), style.params.solver_rate)
+                     : fmt::format("coif stress --only random --seed {} --from {} --cases 1", ground.seed, number));
             outcome.faults.insert(outcome.faults.end(), one.faults.begin(), one.faults.end());
         }
     }
