@@ -293,7 +293,7 @@ TEST_F(Batches, a_task_that_fails_is_told_and_the_others_are_done)
     write("fails.txt", "lab --gamma 5 --nodes 1\n");
     const Result told = coif("run fails.txt --out E --tries 3");
     EXPECT_EQ(told.status, 1);
-    const std::string log = contents("E/" + results("E", "").front());
+    const std::string log = contents("E/" + files("E").at(0));
     size_t tries = 0;
     for (size_t at = 0; (at = log.find("coif: ", at)) != log.npos; ++at)
         ++tries;
