@@ -50,9 +50,11 @@ std::vector<std::string> sheet_jobs(const JobsOptions& wanted)
     const std::vector<std::string> names = names_of(wanted.styles);
     bound(names.size() * size_t(std::max(1, wanted.random)));
     std::vector<std::string> lines;
+    int chance = 0; // counts through: with the same number each style would become longer, or each shorter
     for (size_t i = 0; i < names.size(); ++i)
-        for (int chance = wanted.random ? 1 : 0; chance <= wanted.random; ++chance)
+        for (int n = wanted.random ? 1 : 0; n <= wanted.random; ++n)
         {
+            chance += n > 0;
             std::vector<std::string> words = {"shot", wanted.styles[i]};
             if (chance)
                 append(words, {"--random", std::to_string(chance)});

@@ -292,7 +292,7 @@ TEST(Batch, lists_are_made_for_what_is_asked)
     wanted.passed = {"--size", "64x64"};
     EXPECT_EQ(sheet_jobs(wanted), (Words{"shot bob --size 64x64 -o bob.png", "shot long --size 64x64 -o long.png"}));
     wanted.random = 2;
-    EXPECT_EQ(sheet_jobs(wanted)[3], "shot long --random 2 --size 64x64 -o long-2.png");
+    EXPECT_EQ(sheet_jobs(wanted)[3], "shot long --random 4 --size 64x64 -o long-4.png");
     wanted.views = 3;
     EXPECT_EQ(turntable_jobs(wanted)[4], "shot long --turntable 3 --view 1 --size 64x64 -o long_0001.png");
     wanted.views = 0;
