@@ -17,6 +17,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <set>
 
 namespace coif
@@ -102,6 +103,34 @@ static int run_shot(const Options& options, const ShotOptions& shot, const Seque
     return 0;
 }
 
+// With more than one process each style is a task, as coif jobs would write it.
+static int run_sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, int processes)
+{
+    if (processes == 1 || wanted.styles.size() == 1)
+        return sheet(options, cell, wanted);
+    std::optional<RunHere> done;
+    const auto draw = [&](size_t i)
+    {
+        if (!done)
+        {
+            std::vector<std::string> lines;
+            for (size_t k = 0; k < wanted.styles.size(); ++k)
+            {
+                Options one = options;
+                one.style = wanted.styles[k];
+                lines.push_back(shot_job(one, cell, fmt::format("{}.png", k)));
+            }
+            done.emplace(lines, processes);
+        }
+        std::string fault;
+        const std::filesystem::path file = done->result(i, &fault);
+        if (file.empty())
+            throw Error(fault.starts_with("coif: ") ? fault.substr(6) : fault);
+        return load_png(file);
+    };
+    return sheet(options, cell, wanted, draw);
+}
+
 static int run_edit(Options options)
 {
     if (has_display())
@@ -135,6 +164,7 @@ static int command(std::vector<std::string> words, bool only_look)
     ReportOptions wanted;
     std::string size = "1280x720";
     std::vector<std::string> styles;
+    int processes = 1;
 
     const auto with_sets = [&](CLI::App* command)
     {
@@ -198,6 +228,9 @@ static int command(std::vector<std::string> words, bool only_look)
     sheet_command->add_option("--size", cell_size, "WIDTHxHEIGHT of each style's picture, pixels")
         ->capture_default_str();
     sheet_command->add_option("--columns", sheeted.columns, "Styles in a row");
+    const auto with_processes = [&](CLI::App* command, const char* what)
+    { command->add_option("-j,--jobs", processes, what)->capture_default_str()->check(CLI::Range(1, 1024)); };
+    with_processes(sheet_command, "Styles drawn at a time, each by a process of its own");
     with_picture(sheet_command);
 
     CLI::App* report_command =
@@ -289,6 +322,7 @@ static int command(std::vector<std::string> words, bool only_look)
 
     StressOptions strained;
     CLI::App* stress_command = with_device(app.add_subcommand("stress", "Play the solvers' extremes"));
+    with_processes(stress_command, "Processes that play the random styles");
     stress_command->add_flag("--quick", strained.quick, "Less of everything: under a minute");
     stress_command->add_option("--only", strained.only, "Cases, by name")->delimiter(',');
     stress_command->add_option("--cases", strained.styles, "Random styles and motions");
@@ -341,7 +375,7 @@ static int command(std::vector<std::string> words, bool only_look)
     if (shot_command->parsed())
         return run_shot(options, shot, sequence);
     if (sheet_command->parsed())
-        return sheet(options, shot, sheeted);
+        return run_sheet(options, shot, sheeted, processes);
     if (report_command->parsed())
         return report(options, wanted);
     if (lab_command->parsed())
@@ -352,6 +386,7 @@ static int command(std::vector<std::string> words, bool only_look)
         return measure(options, measured);
     if (bench_command->parsed())
         return bench(options, benched);
+    strained.jobs = processes;
     if (stress_command->parsed())
         return run_stress(options, strained);
     if (check_command->parsed())

@@ -99,7 +99,7 @@ void put_cell(Image& page, const SheetLayout& at, int cell, const Image* picture
                    y + at.cell_height + at.letters / 2, picture ? kName : kFailed);
 }
 
-int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted)
+int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, const DrawStyle& draw)
 {
     check_shot(options, cell);
     const SheetLayout at = lay_out(int(wanted.styles.size()), wanted.columns, cell.width, cell.height);
@@ -109,7 +109,18 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
         assign(any, set); // what is wrong with all is said once
     const Motion motion = find_motion(options.motion);
     const Device device = open_device(options);
-    const Window window(16, 16, Window::HIDDEN);
+    std::optional<Window> window;
+    if (!draw)
+        window.emplace(16, 16, Window::HIDDEN);
+    // Each has a studio of its own: what one leaves behind must not show in the next.
+    const auto draw_here = [&](size_t i)
+    {
+        Options one = options;
+        one.style = wanted.styles[i];
+        Studio studio(device, load_style(one), motion, cell);
+        studio.play_to(options.seconds);
+        return studio.picture();
+    };
     const std::vector<std::string> labels = sheet_labels(wanted.styles);
 
     Image page = empty_sheet(at);
@@ -121,14 +132,9 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
         progress.say(fmt::format("{} ({} of {})", labels[i], i + 1, labels.size()));
         try
         {
-            Options one = options;
-            one.style = wanted.styles[i];
-            if (one.style.empty())
+            if (wanted.styles[i].empty())
                 throw Error("sheet: a style without a name");
-            // Each has a studio of its own: what one leaves behind must not show in the next.
-            Studio studio(device, load_style(one), motion, cell);
-            studio.play_to(options.seconds);
-            picture = studio.picture();
+            picture = draw ? draw(i) : draw_here(i);
         }
         catch (const Error& e)
         {

@@ -2,6 +2,7 @@
 #include "app/image.h"
 #include "app/shot.h"
 
+#include <functional>
 #include <optional>
 
 namespace coif
@@ -37,8 +38,12 @@ std::vector<std::string> sheet_labels(const std::vector<std::string>& names, con
 Image empty_sheet(const SheetLayout& at);
 void put_cell(Image& sheet, const SheetLayout& at, int cell, const Image* picture, const std::string& label);
 
-// A contact sheet of styles into options.output, `cell` each. A style that fails is told, and its cell says so. Returns
-// the exit status: 1 if one failed. Throws Error when all did, or for what is wrong with all.
-int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted);
+// Draws style `i`, or throws Error.
+using DrawStyle = std::function<Image(size_t i)>;
+
+// A contact sheet of styles into options.output, `cell` each, drawn here, one after another, or as `draw` does. A style
+// that fails is told, and its cell says so. Returns the exit status: 1 if one failed. Throws Error when all did, or for
+// what is wrong with all.
+int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, const DrawStyle& draw = {});
 
 } // namespace coif

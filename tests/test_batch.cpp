@@ -133,6 +133,13 @@ TEST_F(Batches, a_sheet_in_shards_has_the_bytes_of_the_sheet)
     ASSERT_EQ(coif("merge jobs.txt --out parts -o merged.png").status, 0);
     ASSERT_EQ(coif("sheet" + how + " -o sheet.png").status, 0);
     EXPECT_EQ(contents("merged.png"), contents("sheet.png"));
+    write("bad.toml", "[strand]\nlength = \"long\"\n");
+    const Result alone = coif("sheet bad.toml" + how + " -o a.png"),
+                 many = coif("sheet bad.toml" + how + " -o b.png -j 3");
+    EXPECT_EQ(alone.status, 1);
+    EXPECT_EQ(many.status, 1);
+    EXPECT_EQ(many.err.substr(0, many.err.find("wrote")), alone.err.substr(0, alone.err.find("wrote")));
+    EXPECT_EQ(contents("b.png"), contents("a.png")) << "by processes too, what fails included";
     const Result again = coif("run jobs.txt --out whole");
     EXPECT_EQ(again.out, "1 kept\n2 kept\n3 kept\n");
     ASSERT_EQ(coif("merge jobs.txt --out whole -o pictures/").status, 1) << "red.png twice";
@@ -401,6 +408,9 @@ TEST_F(Batches, stress_in_lines_is_stress)
     ASSERT_EQ(coif("merge jobs.txt --out D -o merged.csv").status, 0);
     ASSERT_EQ(coif("stress --only random --cases 3 --seed 37 --untimed -o strained").status, 0);
     EXPECT_EQ(contents("merged.csv"), contents("strained/random.csv"));
+    ASSERT_EQ(coif("stress --only random --cases 3 --seed 37 --untimed -o tasks -j 2").status, 0);
+    EXPECT_EQ(contents("tasks/random.csv"), contents("strained/random.csv"));
+    EXPECT_EQ(contents("tasks/stress.csv"), contents("strained/stress.csv"));
     const std::string merged = contents("merged.csv");
     EXPECT_EQ(std::count(merged.begin(), merged.end(), '\n'), 1 + 2 * 3);
     write("cases.txt", coif("jobs stress --quick --only bad-input,teleport --seed 37").out);

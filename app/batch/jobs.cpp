@@ -150,7 +150,9 @@ std::vector<std::string> sweep_jobs(const JobsOptions& wanted)
 std::vector<std::string> stress_jobs(const JobsOptions& wanted)
 {
     std::vector<std::string> lines;
-    const std::vector<std::string> seed = {"--seed", std::to_string(wanted.seed), "--untimed"};
+    std::vector<std::string> seed = {"--seed", std::to_string(wanted.seed)};
+    if (wanted.untimed)
+        seed.push_back("--untimed");
     if (wanted.count < 0)
     {
         // The random styles are a table of their own.
@@ -172,9 +174,10 @@ std::vector<std::string> stress_jobs(const JobsOptions& wanted)
         throw Error("--only and --count: a list is either of cases or of random styles");
     if (wanted.count < 1 || wanted.count > 1000000 || wanted.each < 1)
         throw fail("--count {} --each {}: expected 1 to 1000000, and 1 or more", wanted.count, wanted.each);
-    for (long from = 0; from < wanted.count; from += wanted.each)
+    const long end = wanted.from + wanted.count;
+    for (long from = wanted.from; from < end; from += wanted.each)
     {
-        const long cases = std::min(long(wanted.each), wanted.count - from);
+        const long cases = std::min(long(wanted.each), end - from);
         std::vector<std::string> words = {"stress", "--only", "random"};
         append(words, {"--from", std::to_string(from), "--cases", std::to_string(cases)});
         append(words, seed);
@@ -199,6 +202,31 @@ std::vector<std::string> cache_jobs(const JobsOptions& wanted)
         lines.push_back(check(words));
     }
     return lines;
+}
+
+std::string shot_job(const Options& options, const ShotOptions& shot, const std::string& name)
+{
+    std::vector<std::string> words = {"shot", options.style};
+    append(words, {"--size", fmt::format("{}x{}", shot.width, shot.height)});
+    append(words, {"--samples", std::to_string(shot.samples)});
+    append(words, {"--motion", options.motion, "--time", fmt::format("{}", options.seconds)});
+    const auto add = [&](const char* option, const std::string& value)
+    {
+        if (!value.empty())
+            append(words, {option, value});
+    };
+    add("--camera", shot.camera);
+    add("--variant", options.variant);
+    add("--tolerance", options.tolerance);
+    add("--device", options.device);
+    if (options.random >= 0)
+        append(words, {"--random", std::to_string(options.random)});
+    if (shot.transparent)
+        words.push_back("--transparent");
+    for (const std::string& set : options.sets)
+        append(words, {"--set", set});
+    append(words, {"-o", name});
+    return check(words);
 }
 
 } // namespace coif

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/options.h"
+#include "app/shot.h"
 
 namespace coif
 {
@@ -13,7 +13,9 @@ struct JobsOptions
     std::vector<std::string> vary; // group.key=a,b,c
     int random = 0;                // styles that chance makes of each
     int views = 36;                // of a turn
-    long count = -1;               // random styles of stress; -1: its cases instead
+    long from = 0;                 // the first of the random styles of stress
+    long count = -1;               // and how many; -1: its cases instead
+    bool untimed = true;           // do tables have no times?
     int each = 20;                 // of them in a line
     int seed = 1;
     std::string format = "usda"; // of a cache
@@ -27,5 +29,8 @@ std::vector<std::string> sweep_jobs(const JobsOptions& wanted);     // a scene o
                                                                     // report at each setting: a table
 std::vector<std::string> stress_jobs(const JobsOptions& wanted);    // a case each, or some random styles: a table
 std::vector<std::string> cache_jobs(const JobsOptions& wanted);     // a shot each: a folder
+
+// The line of one shot as these options say it, into a file of that name.
+std::string shot_job(const Options& options, const ShotOptions& shot, const std::string& name);
 
 } // namespace coif

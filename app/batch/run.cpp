@@ -325,9 +325,47 @@ int run_tasks(const std::vector<Task>& tasks, const RunOptions& wanted)
         fmt::print(stderr, "coif: broken off; the same call goes on with what is left\n");
         raise(asked_to_stop);
     }
-    fmt::print(stderr, "{} of {} tasks done, {} kept, {} failed\n", runner.done, mine.size(), runner.kept,
-               runner.failed);
+    if (wanted.told)
+        fmt::print(stderr, "{} of {} tasks done, {} kept, {} failed\n", runner.done, mine.size(), runner.kept,
+                   runner.failed);
     return runner.failed ? 1 : 0;
+}
+
+static fs::path scratch_folder()
+{
+    std::string name = (fs::temp_directory_path() / "coif-run-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+        throw fail("{}: the folder cannot be made: {}", name, std::strerror(errno));
+    return name;
+}
+
+RunHere::RunHere(const std::vector<std::string>& lines, int jobs) : folder_(scratch_folder())
+{
+    tasks_ = parse_list(fmt::format("{}\n", fmt::join(lines, "\n")), "tasks", [](const auto&) {});
+    for (const Task& task : tasks_)
+        stems_.push_back(stem_of(task, key_of(task)));
+    RunOptions wanted;
+    wanted.folder = folder_;
+    wanted.jobs = jobs;
+    wanted.told = false;
+    run_tasks(tasks_, wanted);
+}
+
+RunHere::~RunHere()
+{
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+fs::path RunHere::result(size_t i, std::string* fault) const
+{
+    const auto results = results_in(folder_);
+    const auto found = results.find(stems_[i]);
+    if (found != results.end() && is_whole(found->second[0]))
+        return found->second[0].file;
+    if (fault)
+        *fault = last_line_of(folder_ / (stems_[i] + ".log"));
+    return {};
 }
 
 } // namespace coif

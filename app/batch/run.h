@@ -20,4 +20,21 @@ struct RunOptions
 // folder cannot be written or a task's files cannot be read, before any work.
 int run_tasks(const std::vector<Task>& tasks, const RunOptions& wanted);
 
+// For a command that does its work as tasks, `jobs` at a time, in a folder of the temporary ones that goes with this.
+class RunHere
+{
+  public:
+    RunHere(const std::vector<std::string>& lines, int jobs);
+    ~RunHere();
+    RunHere(const RunHere&) = delete;
+
+    // The file that line `i` made; empty where it failed, and `fault` is what its log ends with.
+    std::filesystem::path result(size_t i, std::string* fault = nullptr) const;
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<Task> tasks_;
+    std::vector<std::string> stems_;
+};
+
 } // namespace coif

@@ -20,6 +20,8 @@ struct Ground
     long styles = 2000; // random ones
     bool keep = true;   // do the files in the folder stay?
     bool untimed = false;
+    int jobs = 1;        // processes for the random ones
+    std::string wish;    // what --device says
     double soak = 600.0; // s simulated
     bool quick = false;
     std::function<void(const std::string&)> say; // progress

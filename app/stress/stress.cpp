@@ -131,6 +131,8 @@ int run_stress(const Options& options, const StressOptions& wanted)
     }
     ground.from = wanted.from;
     ground.untimed = wanted.untimed;
+    ground.jobs = wanted.jobs;
+    ground.wish = options.device;
     ground.seed = wanted.seed;
     ground.quick = wanted.quick;
     ground.styles = wanted.styles >= 0 ? wanted.styles : wanted.quick ? 20 : 2000;

@@ -11,6 +11,7 @@ struct StressOptions
     long from = 0;                 // number of the first random style
     long styles = -1;              // random ones; -1: as many as usual
     bool untimed = false;          // no times in the tables
+    int jobs = 1;                  // processes for the random styles
     int seed = 1;
     double soak = -1.0; // s simulated; -1: as long as usual
 };
