@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/advise/advise.h"
+#include "app/batch/batch.h"
 #include "app/bench/bench.h"
 #include "app/editor.h"
 #include "app/export.h"
@@ -16,6 +17,9 @@
 #include "sim/source.h"
 
 #include <CLI/CLI.hpp>
+
+#include <optional>
+#include <set>
 
 namespace coif
 {
@@ -90,13 +94,42 @@ static int run_morph(const Options& options, const std::string& to, double at)
 
 static int run_shot(const Options& options, const ShotOptions& shot, const SequenceOptions& sequence)
 {
-    if (sequence.wanted())
+    if (sequence.wanted() && sequence.view < 0)
         return shoot_sequence(options, shot, sequence);
     if (!film_format(options.output).empty())
         throw fail("-o {}: a film is of many pictures; say --frames FIRST:LAST or --turntable VIEWS", options.output);
-    save_png(options.output, take_shot(options, shot));
+    const double turn = sequence.view < 0 ? 0.0 : frames_of(sequence, options.seconds)[0].turn;
+    save_png(options.output, take_shot(options, shot, turn));
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
+}
+
+// With more than one process each style is a task, as coif jobs would write it.
+static int run_sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, int processes)
+{
+    if (processes == 1 || wanted.styles.size() == 1)
+        return sheet(options, cell, wanted);
+    std::optional<RunHere> done;
+    const auto draw = [&](size_t i)
+    {
+        if (!done)
+        {
+            std::vector<std::string> lines;
+            for (size_t k = 0; k < wanted.styles.size(); ++k)
+            {
+                Options one = options;
+                one.style = wanted.styles[k];
+                lines.push_back(shot_job(one, cell, fmt::format("{}.png", k)));
+            }
+            done.emplace(lines, processes);
+        }
+        std::string fault;
+        const std::filesystem::path file = done->result(i, &fault);
+        if (file.empty())
+            throw Error(fault.starts_with("coif: ") ? fault.substr(6) : fault);
+        return load_png(file);
+    };
+    return sheet(options, cell, wanted, draw);
 }
 
 static int run_edit(Options options)
@@ -110,7 +143,19 @@ static int run_edit(Options options)
     return 0;
 }
 
-int run_command(int argc, char** argv)
+// Throws Error where a task's style cannot be had; 300 styles of 60 frames are 18,000 lines, so each is looked at once.
+static void look_at_style(const Options& options)
+{
+    static std::set<std::string> good;
+    const std::string call = fmt::format("{}\n{}\n{}\n{}\n{}", options.style, options.variant, options.tolerance,
+                                         options.random, fmt::join(options.sets, "\n"));
+    if (!good.contains(call))
+        load_style(options);
+    good.insert(call);
+}
+
+// With `only_look` nothing is done: throws Error for what cannot be, where otherwise it is told and 2 is returned.
+static int command(std::vector<std::string> words, bool only_look)
 {
     CLI::App app("coif: write a hairstyle, see it live, shape it, take its picture.", "coif");
     app.set_help_all_flag("--help-all", "Help of every command");
@@ -120,12 +165,15 @@ int run_command(int argc, char** argv)
     ReportOptions wanted;
     std::string size = "1280x720";
     std::vector<std::string> styles;
+    int processes = 1;
 
     const auto with_sets = [&](CLI::App* command)
     {
         command->add_option("--set", options.sets, "group.key=value, on top of the file; as often as wanted")
             ->allow_extra_args(false);
         command->add_option("--variant", options.variant, "The [variant.NAME] of the style that is to be on");
+        command->add_option("--random", options.random, "The style that chance makes of it, by this number")
+            ->check(CLI::NonNegativeNumber);
         command->add_option("--tolerance", options.tolerance,
                             "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
     };
@@ -167,6 +215,9 @@ int run_command(int argc, char** argv)
     shot_command
         ->add_option("--turntable", sequence.turntable, "Views in a turn about the head, one a picture or a frame")
         ->check(CLI::PositiveNumber);
+    shot_command->add_option("--view", sequence.view, "Only this view of --turntable, from 0: one picture")
+        ->needs("--turntable")
+        ->excludes("--frames");
 
     CLI::App* export_command =
         with_device(common(app.add_subcommand("export", "Write the hair as curves that other tools read"), true));
@@ -200,6 +251,9 @@ int run_command(int argc, char** argv)
     sheet_command->add_option("--size", cell_size, "WIDTHxHEIGHT of each style's picture, pixels")
         ->capture_default_str();
     sheet_command->add_option("--columns", sheeted.columns, "Styles in a row");
+    const auto with_processes = [&](CLI::App* command, const char* what)
+    { command->add_option("-j,--jobs", processes, what)->capture_default_str()->check(CLI::Range(1, 1024)); };
+    with_processes(sheet_command, "Styles drawn at a time, each by a process of its own");
     with_picture(sheet_command);
 
     CLI::App* report_command =
@@ -211,6 +265,11 @@ int run_command(int argc, char** argv)
     report_command->add_option("--settle", wanted.settle, "Seconds at rest before the motion")->capture_default_str();
     report_command->add_flag("--json", wanted.json, "One JSON object");
     report_command->add_flag("--csv", wanted.csv, "One line a frame")->excludes("--json");
+    report_command->add_flag("--row", wanted.row, "One line in all, with a head: what was set and the worst of it")
+        ->excludes("--json")
+        ->excludes("--csv");
+    report_command->add_flag("--untimed", wanted.untimed, "No times in it, so that equal work gives equal bytes")
+        ->needs("--row");
     report_command->add_option("-o,--output", options.output, "File to write instead of the terminal");
 
     AdviseOptions advised;
@@ -232,7 +291,10 @@ int run_command(int argc, char** argv)
                               "Fewer points: under a minute instead of a quarter of an hour");
     measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
         ->delimiter(',');
-    measure_command->add_option("-o,--output", options.output, "Folder to write into (default: measure)");
+    measure_command->add_flag("--untimed", measured.untimed, "No prices in it, so that equal work gives equal bytes");
+    measure_command->add_option(
+        "-o,--output", options.output,
+        "Folder to write into (default: measure), or a .csv: the rows alone, whatever they say");
 
     BenchOptions benched;
     CLI::App* bench_command = with_device(
@@ -283,20 +345,27 @@ int run_command(int argc, char** argv)
 
     StressOptions strained;
     CLI::App* stress_command = with_device(app.add_subcommand("stress", "Play the solvers' extremes"));
+    with_processes(stress_command, "Processes that play the random styles");
     stress_command->add_flag("--quick", strained.quick, "Less of everything: under a minute");
     stress_command->add_option("--only", strained.only, "Cases, by name")->delimiter(',');
     stress_command->add_option("--cases", strained.styles, "Random styles and motions");
+    stress_command->add_option("--from", strained.from, "Number of the first random style")->capture_default_str();
     stress_command->add_option("--seed", strained.seed, "Of what is random")->capture_default_str();
     stress_command->add_option("--seconds", strained.soak, "Of the soak, simulated s");
-    stress_command->add_option("-o,--output", options.output, "Folder for tables, map and what failed (stress)");
+    stress_command->add_flag("--untimed", strained.untimed, "No times in it, so that equal work gives equal bytes");
+    stress_command->add_option("-o,--output", options.output,
+                               "Folder for tables, map and what failed (stress), or a .csv: the rows alone, whatever "
+                               "they say");
+
+    const std::shared_ptr<Batch> batch = add_batch(app);
 
     // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.
-    std::vector<std::string> words(argv + 1, argv + argc);
     bool is_command = !words.empty() && words[0].rfind("-h", 0) != 0 && words[0].rfind("--help", 0) != 0;
     for (const CLI::App* command : app.get_subcommands({}))
         is_command = is_command && words[0] != command->get_name();
     if (words.empty() || is_command)
         words.insert(words.begin(), "edit");
+    const std::string command_name = words[0];
     try
     {
         std::reverse(words.begin(), words.end()); // as CLI11 takes them
@@ -304,20 +373,34 @@ int run_command(int argc, char** argv)
     }
     catch (const CLI::Success& e)
     {
+        if (only_look)
+            throw Error("asks for help, which is no task");
         return app.exit(e);
     }
     catch (const CLI::ParseError& e)
     {
+        if (only_look)
+            throw fail("{}; coif {} --help lists what it takes", e.what(), command_name);
         app.exit(e);
         return 2;
     }
     parse_size(sheet_command->parsed() ? cell_size : size, shot);
+    if (only_look)
+    {
+        if (!options.style.empty())
+            look_at_style(options);
+        for (const std::string& style : sheeted.styles)
+            find_style(style);
+        return 0;
+    }
+    if (is_batch(*batch))
+        return run_batch(*batch, [](const std::vector<std::string>& line) { command(line, true); });
     if (shot_command->parsed())
         return run_shot(options, shot, sequence);
     if (export_command->parsed())
         return export_style(options, exported, sequence);
     if (sheet_command->parsed())
-        return sheet(options, shot, sheeted);
+        return run_sheet(options, shot, sheeted, processes);
     if (report_command->parsed())
         return report(options, wanted);
     if (lab_command->parsed())
@@ -328,6 +411,7 @@ int run_command(int argc, char** argv)
         return measure(options, measured);
     if (bench_command->parsed())
         return bench(options, benched);
+    strained.jobs = processes;
     if (stress_command->parsed())
         return run_stress(options, strained);
     if (check_command->parsed())
@@ -341,5 +425,7 @@ int run_command(int argc, char** argv)
     (void)edit_command;
     return run_edit(options);
 }
+
+int run_command(int argc, char** argv) { return command({argv + 1, argv + argc}, false); }
 
 } // namespace coif

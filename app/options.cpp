@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/randomise.h"
 #include "sim/error.h"
 #include "sim/source.h"
 
@@ -9,6 +10,8 @@ namespace coif
 {
 
 namespace fs = std::filesystem;
+
+static constexpr double kChance = 0.3; // share of its sliders that --random moves a value by
 
 std::vector<fs::path> preset_files()
 {
@@ -42,6 +45,8 @@ Hairstyle load_style(const Options& options)
 {
     Hairstyle style = load_hairstyle(find_style(options.style));
     switch_variant(style, options.variant);
+    if (options.random >= 0)
+        style = randomised(style, options.random, kChance, {});
     for (const std::string& set : options.sets)
         assign(style, set);
     std::string tolerance = options.tolerance;

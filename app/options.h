@@ -15,6 +15,7 @@ struct Options
     std::vector<std::string> sets; // group.key=value
     std::string variant;           // [variant.NAME] to be on
     std::string tolerance;         // "1%": quality.tolerance
+    int random = -1;               // the style that chance makes of it by this number; -1: itself
     std::string device;            // cpu, gpu or a part of a name
     std::string output;
     std::string motion = "still";
@@ -25,7 +26,7 @@ struct Options
 std::filesystem::path find_style(const std::string& name_or_path);
 std::vector<std::filesystem::path> preset_files(); // that coif ships, in alphabetical order
 
-// Loads the style and applies --set, which has the last word.
+// Loads the style, lets chance have its way and applies --set, which has the last word.
 Hairstyle load_style(const Options& options);
 
 Device open_device(const Options& options);

@@ -1,5 +1,6 @@
 #include "app/report.h"
 
+#include "app/csv.h"
 #include "app/json.h"
 #include "app/progress.h"
 #include "sim/error.h"
@@ -108,6 +109,15 @@ int report(const Options& options, const ReportOptions& wanted)
     std::string text;
     if (wanted.csv)
         text = csv;
+    else if (wanted.row)
+        text = fmt::format("style,settings,motion,seconds,guides,strands,nodes,finite,stretch_max,stretch_mean,"
+                           "penetration_max_mm,drawn_penetration_max_mm,resets,ms_frame_median\n"
+                           "{},{},{},{:.6g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+                           csv_text(style.name()), csv_text(fmt::format("{}", fmt::join(options.sets, " "))),
+                           csv_text(motion.name), options.seconds, groom.guides, groom.drawn.size(), groom.nodes,
+                           worst.finite, worst.stretch_max, stretch_mean, 1e3 * worst.penetration_max,
+                           1e3 * worst.drawn_penetration_max, reset_count,
+                           wanted.untimed ? "" : fmt::format("{:.6g}", median(frame_ms)));
     else if (wanted.json)
     {
         std::vector<std::string> passes, ran;
@@ -162,7 +172,7 @@ int report(const Options& options, const ReportOptions& wanted)
         fmt::print("{}", text);
     else
         write_file(options.output, text);
-    return worst.finite ? 0 : 1;
+    return worst.finite || wanted.row ? 0 : 1;
 }
 
 } // namespace coif

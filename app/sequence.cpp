@@ -23,7 +23,11 @@ std::vector<Frame> frames_of(const SequenceOptions& wanted, double time)
         throw fail("--fps {}: expected 1 to 1000", wanted.fps);
     if (wanted.turntable < 0 || wanted.turntable > kMostViews)
         throw fail("--turntable {}: expected 1 to {} views", wanted.turntable, kMostViews);
+    if (wanted.view != -1 && (wanted.view < 0 || wanted.view >= wanted.turntable))
+        throw fail("--view {}: expected 0 to {}", wanted.view, wanted.turntable - 1);
     int first = 0, last = wanted.turntable - 1;
+    if (wanted.view >= 0)
+        first = last = wanted.view;
     if (!wanted.frames.empty())
     {
         char end = 0;
@@ -38,7 +42,9 @@ std::vector<Frame> frames_of(const SequenceOptions& wanted, double time)
     std::vector<Frame> frames;
     for (int number = first; number <= last; ++number)
     {
-        const int view = wanted.turntable > 0 ? (number - first) % wanted.turntable : 0;
+        const int view = wanted.view >= 0       ? wanted.view
+                         : wanted.turntable > 0 ? (number - first) % wanted.turntable
+                                                : 0;
         const double turn = view == 0 ? 0.0 : 2.0 * std::numbers::pi * view / wanted.turntable;
         frames.push_back({number, wanted.frames.empty() ? time : number / wanted.fps, turn});
     }

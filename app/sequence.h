@@ -10,6 +10,7 @@ struct SequenceOptions
     std::string frames; // "A:B", both of them taken; frame n is n / fps seconds after the motion began
     double fps = 30.0;
     int turntable = 0; // views in a turn about the head; 0: the camera stands
+    int view = -1;     // the only one of them; -1: all
 
     bool wanted() const { return !frames.empty() || turntable != 0; }
 };

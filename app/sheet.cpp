@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace coif
 {
@@ -56,10 +57,18 @@ std::vector<std::string> sheet_labels(const std::vector<std::string>& styles)
     std::vector<std::string> names;
     for (const std::string& style : styles)
         names.push_back(std::filesystem::path(style).stem().string());
+    return sheet_labels(names, styles);
+}
+
+std::vector<std::string> sheet_labels(const std::vector<std::string>& names, const std::vector<std::string>& calls)
+{
+    std::map<std::string, int> count;
+    for (const std::string& name : names)
+        ++count[name];
     std::vector<std::string> labels = names;
     for (size_t i = 0; i < names.size(); ++i)
-        if (names[i].empty() || std::ranges::count(names, names[i]) > 1)
-            labels[i] = styles[i];
+        if (names[i].empty() || count[names[i]] > 1)
+            labels[i] = calls[i];
     return labels;
 }
 
@@ -68,7 +77,29 @@ static void write_centered(Image& sheet, const TextLine& line, int x, int width,
     write_line(sheet, line, x + (width - line.width) / 2, y, shade);
 }
 
-int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted)
+Image empty_sheet(const SheetLayout& at)
+{
+    Image page{at.width, at.height, std::vector<unsigned char>(size_t(4) * size_t(at.width) * size_t(at.height))};
+    fill(page, 0, 0, at.width, at.height, kPage);
+    return page;
+}
+
+void put_cell(Image& page, const SheetLayout& at, int cell, const Image* picture, const std::string& label)
+{
+    const int x = at.x(cell), y = at.y(cell);
+    if (picture)
+        paste(page, *picture, x, y);
+    else
+    {
+        fill(page, x, y, at.cell_width, at.cell_height, kNothing);
+        write_centered(page, line_of("no picture", at.letters, at.cell_width), x, at.cell_width,
+                       y + (at.cell_height - at.letters) / 2, kFailed);
+    }
+    write_centered(page, line_of(label, at.letters, at.cell_width), x, at.cell_width,
+                   y + at.cell_height + at.letters / 2, picture ? kName : kFailed);
+}
+
+int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, const DrawStyle& draw)
 {
     check_shot(options, cell);
     const SheetLayout at = lay_out(int(wanted.styles.size()), wanted.columns, cell.width, cell.height);
@@ -78,42 +109,41 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
         assign(any, set); // what is wrong with all is said once
     const Motion motion = find_motion(options.motion);
     const Device device = open_device(options);
-    const Window window(16, 16, Window::HIDDEN);
+    std::optional<Window> window;
+    if (!draw)
+        window.emplace(16, 16, Window::HIDDEN);
+    // Each has a studio of its own: what one leaves behind must not show in the next.
+    const auto draw_here = [&](size_t i)
+    {
+        Options one = options;
+        one.style = wanted.styles[i];
+        Studio studio(device, load_style(one), motion, cell);
+        studio.play_to(options.seconds);
+        return studio.picture();
+    };
     const std::vector<std::string> labels = sheet_labels(wanted.styles);
 
-    Image page{at.width, at.height, std::vector<unsigned char>(size_t(4) * size_t(at.width) * size_t(at.height))};
-    fill(page, 0, 0, at.width, at.height, kPage);
+    Image page = empty_sheet(at);
     Progress progress;
     size_t failed = 0;
     for (size_t i = 0; i < labels.size(); ++i)
     {
-        const int x = at.x(int(i)), y = at.y(int(i));
-        bool drawn = true;
+        std::optional<Image> picture;
         progress.say(fmt::format("{} ({} of {})", labels[i], i + 1, labels.size()));
         try
         {
-            Options one = options;
-            one.style = wanted.styles[i];
-            if (one.style.empty())
+            if (wanted.styles[i].empty())
                 throw Error("sheet: a style without a name");
-            // Each has a studio of its own: what one leaves behind must not show in the next.
-            Studio studio(device, load_style(one), motion, cell);
-            studio.play_to(options.seconds);
-            paste(page, studio.picture(), x, y);
+            picture = draw ? draw(i) : draw_here(i);
         }
         catch (const Error& e)
         {
             progress.clear();
             const std::string why = e.what();
             fmt::print(stderr, "coif: {}{}\n", why.find(labels[i]) == why.npos ? labels[i] + ": " : "", why);
-            drawn = false;
             ++failed;
-            fill(page, x, y, at.cell_width, at.cell_height, kNothing);
-            write_centered(page, line_of("no picture", at.letters, at.cell_width), x, at.cell_width,
-                           y + (at.cell_height - at.letters) / 2, kFailed);
         }
-        write_centered(page, line_of(labels[i], at.letters, at.cell_width), x, at.cell_width,
-                       y + at.cell_height + at.letters / 2, drawn ? kName : kFailed);
+        put_cell(page, at, int(i), picture ? &*picture : nullptr, labels[i]);
     }
     progress.clear();
     if (failed == labels.size())

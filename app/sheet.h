@@ -1,6 +1,8 @@
 #pragma once
+#include "app/image.h"
 #include "app/shot.h"
 
+#include <functional>
 #include <optional>
 
 namespace coif
@@ -30,9 +32,18 @@ SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int c
 
 // What stands under the cells: the styles' names, or, where two have the same, all of how they were called.
 std::vector<std::string> sheet_labels(const std::vector<std::string>& styles);
+std::vector<std::string> sheet_labels(const std::vector<std::string>& names, const std::vector<std::string>& calls);
 
-// A contact sheet of styles into options.output, `cell` each. A style that fails is told, and its cell says so. Returns
-// the exit status: 1 if one failed. Throws Error when all did, or for what is wrong with all.
-int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted);
+// A sheet without a cell, and a cell into its place; without a picture it says so.
+Image empty_sheet(const SheetLayout& at);
+void put_cell(Image& sheet, const SheetLayout& at, int cell, const Image* picture, const std::string& label);
+
+// Draws style `i`, or throws Error.
+using DrawStyle = std::function<Image(size_t i)>;
+
+// A contact sheet of styles into options.output, `cell` each, drawn here, one after another, or as `draw` does. A style
+// that fails is told, and its cell says so. Returns the exit status: 1 if one failed. Throws Error when all did, or for
+// what is wrong with all.
+int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, const DrawStyle& draw = {});
 
 } // namespace coif

@@ -88,7 +88,7 @@ Image Studio::picture(double turn)
     return renderer_.picture(frame, shot_.width, shot_.height);
 }
 
-Image take_shot(const Options& options, const ShotOptions& shot)
+Image take_shot(const Options& options, const ShotOptions& shot, double turn)
 {
     check_shot(options, shot);
     const Hairstyle style = load_style(options);
@@ -100,7 +100,7 @@ Image take_shot(const Options& options, const ShotOptions& shot)
     Studio studio(device, style, motion, shot);
     progress.say(style.name() + ": moves");
     studio.play_to(options.seconds);
-    return studio.picture();
+    return studio.picture(turn);
 }
 
 } // namespace coif

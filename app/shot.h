@@ -39,7 +39,8 @@ class Studio
     Renderer renderer_;
 };
 
-// Plays the motion for the given time without drawing, then draws once: the same input gives the same picture.
-Image take_shot(const Options& options, const ShotOptions& shot);
+// Plays the motion for the given time without drawing, then draws once, `turn` (rad) further round: the same input
+// gives the same picture.
+Image take_shot(const Options& options, const ShotOptions& shot, double turn = 0.0);
 
 } // namespace coif

@@ -1,5 +1,6 @@
 #include "app/measure/measure.h"
 
+#include "app/image.h"
 #include "app/measure/plots.h"
 #include "app/progress.h"
 
@@ -24,11 +25,22 @@ static std::vector<Scene> wanted_scenes(const std::vector<std::string>& only)
     return wanted;
 }
 
+static void forget_prices(std::vector<Row>& rows)
+{
+    std::erase_if(rows, [](const Row& row) { return row.metric.starts_with("price"); });
+    for (Row& row : rows)
+        row.ms = row.ns_strand_frame = NAN;
+}
+
 int measure(const Options& options, const MeasureOptions& wanted)
 {
     const std::vector<Scene> all = wanted_scenes(wanted.only);
     const fs::path folder = options.output.empty() ? "measure" : options.output;
-    make_folder(folder);
+    const bool rows_alone = folder.extension() == ".csv" && !fs::is_directory(folder);
+    if (rows_alone)
+        check_folder(folder);
+    else
+        make_folder(folder);
     const Device device = open_device(options);
     Measuring with{device, wanted.quick};
     const Progress line;
@@ -39,13 +51,20 @@ int measure(const Options& options, const MeasureOptions& wanted)
         with.progress = [&](const std::string& doing)
         { line.say(fmt::format("{} of {}: {}: {}", i + 1, all.size(), all[i].id, doing)); };
         with.progress(all[i].title);
-        const std::vector<Row> more = all[i].run(with);
+        std::vector<Row> more = all[i].run(with);
+        if (wanted.untimed)
+            forget_prices(more);
         rows.insert(rows.end(), more.begin(), more.end());
     }
     line.clear();
 
     fmt::print("{}", table_of(rows)); // first: it needs no room on a disk
     std::fflush(stdout);
+    if (rows_alone)
+    {
+        write_file(folder, csv_of(rows));
+        return 0;
+    }
     write_file(folder / "measure.csv", csv_of(rows));
     write_file(folder / "measure.json", json_of(rows, device.name, wanted.quick));
     const std::string trouble = write_plots(folder, plots_of(rows));

@@ -12,6 +12,7 @@ struct MeasureOptions
 {
     bool quick = false;            // fewer points and shorter runs: under a minute
     std::vector<std::string> only; // ids of scenes; empty: all
+    bool untimed = false;          // no prices
 };
 
 // What a scene is given to work with.
@@ -35,7 +36,8 @@ const std::vector<Scene>& scenes();
 std::string solver_name(const HairParams& params);
 
 // Runs the scenes and writes measure.csv, measure.json and plots/ into options.output; the table goes to standard
-// output. Returns the exit status: 1 if a row misses its bound.
+// output. Returns the exit status: 1 if a row misses its bound. Into a .csv: the rows alone, and 0 whatever they say,
+// which is a task of a batch.
 int measure(const Options& options, const MeasureOptions& wanted);
 
 // The scenes, in files of their own.

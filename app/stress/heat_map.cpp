@@ -78,6 +78,8 @@ Outcome heat_map(const Ground& ground)
         write_file(ground.folder / fmt::format("heat-{}.csv", kSolvers[kind]), csv);
     }
     write_file(ground.folder / "heat.gp", kScript);
+    if (!ground.keep)
+        return outcome;
     if (run_gnuplot(ground.folder, "heat.gp", "/dev/null") == 0)
         outcome.note = (ground.folder / "heat.png").string();
     else

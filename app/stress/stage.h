@@ -16,7 +16,12 @@ struct Ground
     Device device; // with guards about its buffers
     std::filesystem::path folder;
     int seed = 1;
-    long styles = 2000;  // random ones
+    long from = 0;      // number of the first random style
+    long styles = 2000; // random ones
+    bool keep = true;   // do the files in the folder stay?
+    bool untimed = false;
+    int jobs = 1;        // processes for the random ones
+    std::string wish;    // what --device says
     double soak = 600.0; // s simulated
     bool quick = false;
     std::function<void(const std::string&)> say; // progress
