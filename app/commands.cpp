@@ -4,6 +4,7 @@
 #include "app/bench/bench.h"
 #include "app/editor.h"
 #include "app/film.h"
+#include "app/import.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
 #include "app/morph.h"
@@ -70,6 +71,17 @@ static int run_save(const Options& options)
     Hairstyle style = load_style(options);
     load_assets(style); // refuses what could not be opened again
     save_hairstyle(style, options.output);
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
+static int run_import(const Options& options, const ImportOptions& wanted)
+{
+    std::string report;
+    Hairstyle style = imported_style(options.style, options.output, wanted, report);
+    load_assets(style); // refuses what could not be opened again
+    save_hairstyle(style, options.output);
+    fmt::print("{}", report);
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
 }
@@ -227,6 +239,18 @@ int run_command(int argc, char** argv)
     CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
     save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
 
+    CLI::App* import_command = app.add_subcommand("import", "Make a style of the hair in another tool's file");
+    ImportOptions imported;
+    import_command
+        ->add_option("FILE", options.style, "Alembic (.abc), .hair, USD text (.usda), TressFX (.tfx) or .data")
+        ->required();
+    import_command->add_option("-o,--output", options.output, "Hairstyle to write; it names FILE")->required();
+    import_command->add_option("--up", imported.up, "The file's axis that points up: y, z, or unreal (z, left-handed)")
+        ->check(CLI::IsMember({"y", "z", "unreal"}));
+    import_command->add_option("--scale", imported.scale, "What the file's numbers count, m: 0.01 for centimetres");
+    import_command->add_option("--scalp", imported.scalp, "OBJ that the roots are set onto, instead of coif's own");
+    import_command->add_option("--set", imported.sets, "group.key=value; as often as wanted")->allow_extra_args(false);
+
     CLI::App* morph_command = app.add_subcommand("morph", "Make the style that lies between two");
     std::string morph_to;
     double morph_at = 0.5;
@@ -311,6 +335,8 @@ int run_command(int argc, char** argv)
         return run_keys();
     if (save_command->parsed())
         return run_save(options);
+    if (import_command->parsed())
+        return run_import(options, imported);
     if (morph_command->parsed())
         return run_morph(options, morph_to, morph_at);
     (void)edit_command;

@@ -1,6 +1,7 @@
 #include "app/editor.h"
 
 #include "app/folders.h"
+#include "app/import.h"
 #include "app/lettering.h"
 #include "app/sequence.h"
 #include "sim/error.h"
@@ -118,6 +119,11 @@ void Editor::apply()
 
 void Editor::take(const std::filesystem::path& file)
 {
+    if (is_hair_file(file))
+    {
+        take_hair(file);
+        return;
+    }
     guarded(
         [&]
         {
@@ -127,6 +133,29 @@ void Editor::take(const std::filesystem::path& file)
         });
     apply();
     note_edit(history_, style_, saved_, "opened " + style_.name());
+}
+
+// A new style beside a file of hair, which is not written before it is saved.
+void Editor::take_hair(const std::filesystem::path& file)
+{
+    std::string report;
+    guarded(
+        [&]
+        {
+            std::filesystem::path target = file;
+            std::error_code error;
+            for (int n = 1; n == 1 || std::filesystem::exists(target, error); ++n)
+                target.replace_filename(file.stem().string() + (n > 1 ? fmt::format(".{}", n) : "") + ".toml");
+            const Hairstyle fresh = imported_style(file, target, {}, report);
+            show(fresh, fresh);
+            gone_ = true;
+            while (report.ends_with('\n'))
+                report.pop_back();
+        });
+    apply();
+    note_edit(history_, style_, saved_, "imported " + file.filename().string());
+    if (!report.empty() && !message_is_error_)
+        say(report);
 }
 
 // In the place of what was there. Throws Error, and then nothing has changed.

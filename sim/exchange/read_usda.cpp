@@ -111,7 +111,8 @@ static std::vector<T> vectors(const UsdText& text, const UsdPrim& prim, std::str
         throw fail("{}: {} of the prim '{}' has {} numbers, which are no vectors of {}", file, name, prim.name,
                    numbers.size(), kParts);
     std::vector<T> all(numbers.size() / kParts);
-    memcpy(static_cast<void*>(all.data()), numbers.data(), numbers.size() * sizeof(float));
+    if (!all.empty())
+        memcpy(static_cast<void*>(all.data()), numbers.data(), numbers.size() * sizeof(float));
     const UsdAttribute* indices = text.find(prim, std::string(name) + ":indices");
     if (!indices)
         return all;
