@@ -13,6 +13,7 @@
 #include "app/sheet.h"
 #include "app/stress/stress.h"
 #include "sim/error.h"
+#include "sim/exchange/place.h"
 #include "sim/source.h"
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,9 @@ static int run_check(const std::vector<std::string>& styles)
             Hairstyle style = load_hairstyle(find_style(name));
             Assets assets = load_assets(style);
             std::string doubt = doubtful_size(style.params, assets);
+            if (assets.scalp.hair)
+                for (const std::string& remark : assets.scalp.hair->remark)
+                    doubt += (doubt.empty() ? "" : "; ") + remark;
             if (!style.host.ties.empty())
             {
                 const std::string loose = doubtful_ties(style, grown(style, assets));

@@ -138,7 +138,7 @@ void Editor::take(const std::filesystem::path& file)
 // A new style beside a file of hair, which is not written before it is saved.
 void Editor::take_hair(const std::filesystem::path& file)
 {
-    std::string report;
+    std::string came_of_it; // empty where nothing did
     guarded(
         [&]
         {
@@ -146,16 +146,16 @@ void Editor::take_hair(const std::filesystem::path& file)
             std::error_code error;
             for (int n = 1; n == 1 || std::filesystem::exists(target, error); ++n)
                 target.replace_filename(file.stem().string() + (n > 1 ? fmt::format(".{}", n) : "") + ".toml");
+            std::string report;
             const Hairstyle fresh = imported_style(file, target, {}, report);
             show(fresh, fresh);
             gone_ = true;
-            while (report.ends_with('\n'))
-                report.pop_back();
+            came_of_it = report.substr(0, report.find_last_not_of('\n') + 1);
         });
     apply();
     note_edit(history_, style_, saved_, "imported " + file.filename().string());
-    if (!report.empty() && !message_is_error_)
-        say(report);
+    if (!came_of_it.empty())
+        say(came_of_it);
 }
 
 // In the place of what was there. Throws Error, and then nothing has changed.

@@ -78,7 +78,7 @@ Hairstyle imported_style(const fs::path& file, const fs::path& target, const Imp
         assign(style, set);
     const Scalp scalp = load_scalp(resolve_path(style, "scalp.mesh", style.host.scalp_mesh, data_folder() / "assets"));
     std::string said, moved;
-    const HairFrame frame = hair_frame(hair, p, said);
+    const HairFrame frame = hair_frame(hair, scalp, p, said);
     if (const glm::vec3 by = fitting_offset(hair, frame, scalp); by != glm::vec3(0.0f))
     {
         p.groom_import_offset = F4(frame.offset.x + by.x, frame.offset.y + by.y, frame.offset.z + by.z, 0.0f);

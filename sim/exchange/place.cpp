@@ -30,45 +30,6 @@ static glm::vec3 in_frame(glm::vec3 p, const HairFrame& frame)
     return upright(p, frame.up) * frame.scale + frame.offset;
 }
 
-HairFrame hair_frame(const HairFile& file, const HairParams& params, std::string& said)
-{
-    const Curves& c = file.curves;
-    glm::vec3 low(INFINITY), high(-INFINITY), falls(0.0f);
-    size_t first = 0;
-    for (const uint32_t count : c.count)
-    {
-        for (size_t i = first; i < first + count; ++i)
-        {
-            low = glm::min(low, c.position[i]);
-            high = glm::max(high, c.position[i]);
-        }
-        falls += (c.position[first] - c.position[first + count - 1]) / float(c.count.size());
-        first += count;
-    }
-    const glm::vec3 size = high - low;
-    const float extent = std::max({size.x, size.y, size.z});
-    HairFrame frame;
-    frame.offset = {params.groom_import_offset.x, params.groom_import_offset.y, params.groom_import_offset.z};
-    const bool scale_told = params.groom_import_scale > 0.0f, up_told = params.groom_import_up != HAIR_UP_AUTO;
-    frame.scale = scale_told         ? params.groom_import_scale
-                  : file.unit > 0.0f ? file.unit
-                  : extent > 200.0f  ? 0.001f
-                  : extent > 10.0f   ? 0.01f
-                                     : 1.0f;
-    // Hair on a standing figure is far up; on a head alone it falls.
-    const float height = 0.5f / frame.scale;
-    frame.up = up_told                                                 ? HairUp(params.groom_import_up)
-               : file.up != HAIR_UP_AUTO                               ? file.up
-               : low.z > height && low.y < height                      ? HAIR_UP_Z
-               : falls.z > falls.y && falls.z > 0.0f && low.y < height ? HAIR_UP_Z
-                                                                       : HAIR_UP_Y;
-    const auto why = [](bool told, bool by_file) { return told ? "as told" : by_file ? "as it says" : "a guess"; };
-    said = fmt::format("{}, {:.4g} across; its unit is {:g} m ({}), its {} axis points up ({})", file.format, extent,
-                       frame.scale, why(scale_told, file.unit > 0.0f), frame.up == HAIR_UP_Y ? "y" : "z",
-                       why(up_told, file.up != HAIR_UP_AUTO));
-    return frame;
-}
-
 namespace
 {
 // Triangles with balls about them, so that few need be looked at.
@@ -127,34 +88,121 @@ static glm::vec3 point_of(const Scalp& scalp, const Between& place)
 // Where files are damaged or made for another head, roots are this far off at most, m.
 static float reach(const Scalp& scalp) { return 0.25f * scalp.extent; }
 
-glm::vec3 fitting_offset(const HairFile& file, const HairFrame& frame, const Scalp& scalp)
+namespace
+{
+struct Box
+{
+    glm::vec3 low{INFINITY}, high{-INFINITY};
+    void add(glm::vec3 p)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    glm::vec3 middle() const { return 0.5f * (low + high); }
+};
+} // namespace
+
+// Some of the roots, evenly over the file, in a frame.
+static std::vector<glm::vec3> some_roots(const HairFile& file, const HairFrame& frame)
 {
     const Curves& c = file.curves;
-    glm::vec3 low(INFINITY), high(-INFINITY), scalp_low(INFINITY), scalp_high(-INFINITY);
-    size_t first = 0, off = 0, looked = 0;
-    Nearest nearest(scalp);
-    for (size_t s = 0; s < c.strands(); first += c.count[s++])
-    {
-        const glm::vec3 root = in_frame(c.position[first], frame);
-        low = glm::min(low, root);
-        high = glm::max(high, root);
+    std::vector<glm::vec3> roots;
+    for (size_t s = 0, at = 0; s < c.strands(); at += c.count[s++])
         if (s % (c.strands() / 500 + 1) == 0)
-        {
-            float distance = 0.0f;
-            nearest(root, distance);
-            ++looked;
-            off += distance > 0.5f * reach(scalp);
-        }
-    }
-    if (4 * off < looked)
-        return glm::vec3(0.0f);
+            roots.push_back(in_frame(c.position[at], frame));
+    return roots;
+}
+
+// To bring the middle of the roots to the scalp's, m.
+static glm::vec3 to_middle(const std::vector<glm::vec3>& roots, const Scalp& scalp)
+{
+    Box of_roots, of_scalp;
+    for (const glm::vec3& root : roots)
+        of_roots.add(root);
     for (const glm::vec3& p : scalp.positions)
+        of_scalp.add(p);
+    return of_scalp.middle() - of_roots.middle();
+}
+
+// How far they are from the scalp in the mean, m.
+static float mean_distance(const std::vector<glm::vec3>& roots, glm::vec3 moved, Nearest& nearest)
+{
+    float sum = 0.0f;
+    for (const glm::vec3& root : roots)
     {
-        scalp_low = glm::min(scalp_low, p);
-        scalp_high = glm::max(scalp_high, p);
+        float distance = 0.0f;
+        nearest(root + moved, distance);
+        sum += distance;
     }
-    // To the millimetre: it is written into a style.
-    return glm::round(0.5f * (scalp_low + scalp_high - low - high) * 1000.0f) / 1000.0f;
+    return sum / float(roots.size());
+}
+
+// The axis by which the roots lie closest to the scalp: as they are, or moved there if they are far from it by any. The
+// less likely ones must do clearly better.
+static HairUp guessed_up(const HairFile& file, HairFrame frame, const Scalp& scalp)
+{
+    constexpr float kClearly = 0.7f;
+    constexpr HairUp kUps[] = {HAIR_UP_Y, HAIR_UP_Z, HAIR_UP_UNREAL};
+    Nearest nearest(scalp);
+    for (const bool moved : {false, true})
+    {
+        HairUp best = HAIR_UP_Y;
+        float least = INFINITY;
+        for (const HairUp up : kUps)
+        {
+            frame.up = up;
+            const std::vector<glm::vec3> roots = some_roots(file, frame);
+            const float own = mean_distance(roots, moved ? to_middle(roots, scalp) : glm::vec3(0.0f), nearest);
+            if (own < kClearly * least)
+            {
+                best = up;
+                least = own;
+            }
+        }
+        if (moved || least < 0.25f * reach(scalp))
+            return best;
+    }
+    return HAIR_UP_Y; // not reached
+}
+
+HairFrame hair_frame(const HairFile& file, const Scalp& scalp, const HairParams& params, std::string& said)
+{
+    Box box;
+    for (const glm::vec3& p : file.curves.position)
+        box.add(p);
+    const glm::vec3 size = box.high - box.low;
+    const float extent = std::max({size.x, size.y, size.z});
+    HairFrame frame;
+    frame.offset = {params.groom_import_offset.x, params.groom_import_offset.y, params.groom_import_offset.z};
+    const bool scale_told = params.groom_import_scale > 0.0f, up_told = params.groom_import_up != HAIR_UP_AUTO;
+    frame.scale = scale_told         ? params.groom_import_scale
+                  : file.unit > 0.0f ? file.unit
+                  : extent > 200.0f  ? 0.001f
+                  : extent > 10.0f   ? 0.01f
+                                     : 1.0f;
+    const float height = 0.5f / frame.scale; // hair on a standing figure is far above its feet
+    frame.up = up_told                                           ? HairUp(params.groom_import_up)
+               : file.up != HAIR_UP_AUTO                         ? file.up
+               : box.low.z > height && box.low.y < 0.5f * height ? HAIR_UP_Z
+               : box.low.y > height && box.low.z < 0.5f * height ? HAIR_UP_Y
+                                                                 : guessed_up(file, frame, scalp);
+    const auto why = [](bool told, bool by_file) { return told ? "as told" : by_file ? "as it says" : "a guess"; };
+    said = fmt::format("{}, {:.4g} across; its unit is {:g} m ({}), its {} ({})", file.format, extent, frame.scale,
+                       why(scale_told, file.unit > 0.0f),
+                       frame.up == HAIR_UP_Y   ? "y axis points up"
+                       : frame.up == HAIR_UP_Z ? "z axis points up"
+                                               : "z axis points up, left-handed",
+                       why(up_told, file.up != HAIR_UP_AUTO));
+    return frame;
+}
+
+glm::vec3 fitting_offset(const HairFile& file, const HairFrame& frame, const Scalp& scalp)
+{
+    const std::vector<glm::vec3> roots = some_roots(file, frame);
+    Nearest nearest(scalp);
+    if (mean_distance(roots, glm::vec3(0.0f), nearest) < 0.25f * reach(scalp))
+        return glm::vec3(0.0f);
+    return glm::round(to_middle(roots, scalp) * 1000.0f) / 1000.0f; // to the millimetre: it is written into a style
 }
 
 // The first `most` strands in such an order that each root is as far from all before it as can be (Gonzalez, Clustering
@@ -184,7 +232,7 @@ PlacedHair place_hair(const HairFile& file, const Scalp& scalp, const HairParams
 {
     const Curves& c = file.curves;
     PlacedHair hair;
-    const HairFrame frame = hair_frame(file, params, hair.said);
+    const HairFrame frame = hair_frame(file, scalp, params, hair.said);
     hair.remark = file.remark;
     Nearest nearest(scalp);
     std::vector<size_t> begin;

@@ -35,9 +35,10 @@ struct PlacedHair
     float length(size_t strand) const; // m
 };
 
-// What groom.import_scale, _up and _offset say of a file or, where they leave it open, what the file says or the looks
-// of its hair: more than 10 across counts centimetres; what falls along z has z up. `said` tells which.
-HairFrame hair_frame(const HairFile& file, const HairParams& params, std::string& said);
+// What groom.import_scale, _up and _offset say of a file or, where they leave it open, what the file says or a guess:
+// more than 10 across counts centimetres, more than 200 millimetres; up is what is high on a standing figure, or else
+// the axis by which the roots lie closest to the scalp. `said` tells which.
+HairFrame hair_frame(const HairFile& file, const Scalp& scalp, const HairParams& params, std::string& said);
 
 // The offset that brings the roots' middle to the scalp's; 0 where the roots lie on it already.
 glm::vec3 fitting_offset(const HairFile& file, const HairFrame& frame, const Scalp& scalp);

@@ -150,6 +150,7 @@ TEST(PlaceHair, units_and_axes_are_guessed_and_told)
     same(turned(1000.0f, HAIR_UP_Y), params);
     same(turned(100.0f, HAIR_UP_Z), params);
     same(turned(1.0f, HAIR_UP_Z), params);
+    same(turned(100.0f, HAIR_UP_UNREAL), params);
     params.groom_import_up = HAIR_UP_UNREAL;
     params.groom_import_scale = 0.02f;
     same(turned(50.0f, HAIR_UP_UNREAL), params);
@@ -167,9 +168,10 @@ TEST(PlaceHair, units_and_axes_are_guessed_and_told)
     EXPECT_NE(error.find("200 of the 200 strands do not stand on this scalp"), std::string::npos) << error;
     EXPECT_NE(error.find("groom.import_offset = ["), std::string::npos) << error;
     std::string words;
-    const glm::vec3 by = fitting_offset(far, hair_frame(far, {}, words), whole_scalp());
+    const glm::vec3 by = fitting_offset(far, hair_frame(far, whole_scalp(), {}, words), whole_scalp());
     EXPECT_LT(glm::distance(by, figure), 0.01f);
-    EXPECT_EQ(fitting_offset(arcs(200), hair_frame(arcs(200), {}, words), whole_scalp()), glm::vec3(0.0f));
+    EXPECT_EQ(fitting_offset(arcs(200), hair_frame(arcs(200), whole_scalp(), {}, words), whole_scalp()),
+              glm::vec3(0.0f));
 }
 
 TEST(PlaceHair, roots_snap_to_the_scalp_and_strays_are_dropped)
