@@ -6,6 +6,7 @@
 #include "app/editor.h"
 #include "app/export.h"
 #include "app/film.h"
+#include "app/import.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
 #include "app/morph.h"
@@ -14,6 +15,7 @@
 #include "app/sheet.h"
 #include "app/stress/stress.h"
 #include "sim/error.h"
+#include "sim/exchange/place.h"
 #include "sim/source.h"
 
 #include <CLI/CLI.hpp>
@@ -35,6 +37,9 @@ static int run_check(const std::vector<std::string>& styles)
             Hairstyle style = load_hairstyle(find_style(name));
             Assets assets = load_assets(style);
             std::string doubt = doubtful_size(style.params, assets);
+            if (assets.scalp.hair)
+                for (const std::string& remark : assets.scalp.hair->remark)
+                    doubt += (doubt.empty() ? "" : "; ") + remark;
             if (!style.host.ties.empty())
             {
                 const std::string loose = doubtful_ties(style, grown(style, assets));
@@ -75,6 +80,17 @@ static int run_save(const Options& options)
     Hairstyle style = load_style(options);
     load_assets(style); // refuses what could not be opened again
     save_hairstyle(style, options.output);
+    fmt::print(stderr, "wrote {}\n", options.output);
+    return 0;
+}
+
+static int run_import(const Options& options, const ImportOptions& wanted)
+{
+    std::string report;
+    Hairstyle style = imported_style(options.style, options.output, wanted, report);
+    load_assets(style); // refuses what could not be opened again
+    save_hairstyle(style, options.output);
+    fmt::print("{}", report);
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
 }
@@ -312,6 +328,18 @@ static int command(std::vector<std::string> words, bool only_look)
     CLI::App* save_command = common(app.add_subcommand("save", "Change a hairstyle without a window"), true);
     save_command->add_option("-o,--output", options.output, "Hairstyle to write")->required();
 
+    CLI::App* import_command = app.add_subcommand("import", "Make a style of the hair in another tool's file");
+    ImportOptions imported;
+    import_command
+        ->add_option("FILE", options.style, "Alembic (.abc), .hair, USD text (.usda), TressFX (.tfx) or .data")
+        ->required();
+    import_command->add_option("-o,--output", options.output, "Hairstyle to write; it names FILE")->required();
+    import_command->add_option("--up", imported.up, "The file's axis that points up: y, z, or unreal (z, left-handed)")
+        ->check(CLI::IsMember({"y", "z", "unreal"}));
+    import_command->add_option("--scale", imported.scale, "What the file's numbers count, m: 0.01 for centimetres");
+    import_command->add_option("--scalp", imported.scalp, "OBJ that the roots are set onto, instead of coif's own");
+    import_command->add_option("--set", imported.sets, "group.key=value; as often as wanted")->allow_extra_args(false);
+
     CLI::App* morph_command = app.add_subcommand("morph", "Make the style that lies between two");
     std::string morph_to;
     double morph_at = 0.5;
@@ -420,6 +448,8 @@ static int command(std::vector<std::string> words, bool only_look)
         return run_keys();
     if (save_command->parsed())
         return run_save(options);
+    if (import_command->parsed())
+        return run_import(options, imported);
     if (morph_command->parsed())
         return run_morph(options, morph_to, morph_at);
     (void)edit_command;

@@ -1,6 +1,7 @@
 #include "app/editor.h"
 
 #include "app/folders.h"
+#include "app/import.h"
 #include "app/lettering.h"
 #include "app/sequence.h"
 #include "sim/error.h"
@@ -120,6 +121,11 @@ void Editor::apply()
 
 void Editor::take(const std::filesystem::path& file)
 {
+    if (is_hair_file(file))
+    {
+        take_hair(file);
+        return;
+    }
     guarded(
         [&]
         {
@@ -129,6 +135,29 @@ void Editor::take(const std::filesystem::path& file)
         });
     apply();
     note_edit(history_, style_, saved_, "opened " + style_.name());
+}
+
+// A new style beside a file of hair, which is not written before it is saved.
+void Editor::take_hair(const std::filesystem::path& file)
+{
+    std::string came_of_it; // empty where nothing did
+    guarded(
+        [&]
+        {
+            std::filesystem::path target = file;
+            std::error_code error;
+            for (int n = 1; n == 1 || std::filesystem::exists(target, error); ++n)
+                target.replace_filename(file.stem().string() + (n > 1 ? fmt::format(".{}", n) : "") + ".toml");
+            std::string report;
+            const Hairstyle fresh = imported_style(file, target, {}, report);
+            show(fresh, fresh);
+            gone_ = true;
+            came_of_it = report.substr(0, report.find_last_not_of('\n') + 1);
+        });
+    apply();
+    note_edit(history_, style_, saved_, "imported " + file.filename().string());
+    if (!came_of_it.empty())
+        say(came_of_it);
 }
 
 // In the place of what was there. Throws Error, and then nothing has changed.

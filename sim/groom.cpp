@@ -1,6 +1,7 @@
 #include "sim/groom.h"
 
 #include "sim/clumps.h"
+#include "sim/exchange/place.h"
 #include "sim/material.h"
 #include "sim/scatter.h"
 #include "sim/shaping.h"
@@ -283,6 +284,115 @@ static void grow_all(Groom& groom, Ground& ground, int count)
     }
 }
 
+namespace
+{
+// The simulated strands nearest to a place, and their shares of it.
+struct Neighbours
+{
+    glm::uvec3 guides{0};
+    glm::vec3 shares{0.0f};
+    float nearest = 0.0f; // m
+};
+} // namespace
+
+// `first` is the first of the scalp's vertices that are asked.
+static Neighbours neighbours(const Scalp& scalp, size_t first, glm::vec3 point)
+{
+    float square[3] = {INFINITY, INFINITY, INFINITY};
+    unsigned guide[3] = {unsigned(first), unsigned(first), unsigned(first)};
+    for (size_t g = first; g < scalp.positions.size(); ++g)
+    {
+        const glm::vec3 d = scalp.positions[g] - point;
+        const float own = glm::dot(d, d);
+        if (own >= square[2])
+            continue;
+        int at = 2;
+        for (; at > 0 && square[at - 1] > own; --at)
+        {
+            square[at] = square[at - 1];
+            guide[at] = guide[at - 1];
+        }
+        square[at] = own;
+        guide[at] = unsigned(g);
+    }
+    // By the inverse square (Shepard 1968), within a tenth of a millimetre all to one.
+    const auto share = [&](int k) { return square[k] < INFINITY ? 1.0f / (square[k] + 1e-8f) : 0.0f; };
+    const glm::vec3 shares(share(0), share(1), share(2));
+    return {{guide[0], guide[1], guide[2]}, shares / (shares.x + shares.y + shares.z), std::sqrt(square[0])};
+}
+
+// How far from simulated strands there is still hair: twice as far as most of them are from one another, m.
+static float reach_of_hair(const Scalp& scalp, size_t first)
+{
+    std::vector<float> apart;
+    const size_t stride = (scalp.positions.size() - first) / 500 + 1;
+    for (size_t g = first; g < scalp.positions.size(); g += stride)
+    {
+        float nearest = INFINITY;
+        for (size_t other = first; other < scalp.positions.size(); ++other)
+            if (other != g)
+                nearest = std::min(nearest, glm::distance(scalp.positions[g], scalp.positions[other]));
+        apart.push_back(nearest);
+    }
+    const auto most = apart.begin() + long(apart.size() * 9 / 10);
+    std::nth_element(apart.begin(), most, apart.end());
+    return 2.0f * *most;
+}
+
+// Strands of a file's hair: itself, where all of it is simulated; else each of its strands along with the simulated
+// ones nearest to it, or, where those are all that it has, as many as the style says wherever there is hair.
+static void grow_placed(Groom& groom, Ground& ground)
+{
+    const HairParams& p = ground.shaping.params;
+    const Scalp& scalp = ground.shaping.scalp;
+    const PlacedHair& hair = *scalp.hair;
+    const std::vector<unsigned> simulated = simulated_strands(hair, p);
+    const size_t first = scalp.positions.size() - simulated.size();
+    if (p.interpolation_guides == GUIDES_ALL)
+    {
+        for (size_t i = 0; i < simulated.size(); ++i)
+        {
+            DrawnStrand strand = {};
+            strand.guide0 = strand.guide1 = strand.guide2 = int(first + i);
+            add_drawn(groom, ground, strand, at_vertex(scalp, first + i), int(i));
+        }
+        return;
+    }
+    std::vector<int> guide_of(hair.strands(), -1);
+    for (size_t i = 0; i < simulated.size(); ++i)
+        guide_of[simulated[i]] = int(first + i);
+    const std::vector<Between> places =
+        hair.drawn ? hair.place : spread_places(scalp, p.interpolation_strands, p.interpolation_seed);
+    const float reach = hair.drawn ? INFINITY : reach_of_hair(scalp, first);
+    for (size_t i = 0; i < places.size(); ++i)
+    {
+        const Between& on = places[i];
+        const glm::vec3 root = scalp.positions[on.of.x] * on.shares.x + scalp.positions[on.of.y] * on.shares.y +
+                               scalp.positions[on.of.z] * on.shares.z;
+        const ScalpPlace place = {root, on.of, on.shares};
+        Neighbours near = neighbours(scalp, first, root);
+        if (near.nearest > reach)
+            continue;
+        if (hair.drawn && guide_of[i] >= 0)
+            near = {glm::uvec3(unsigned(guide_of[i])), {1.0f, 0.0f, 0.0f}, 0.0f};
+        if (ground.varied)
+            keep_to_own_side(scalp, ground.sides, sides_at(ground.shaping, place), root, near.guides, near.shares);
+        const DrawnStrand strand = mixed_of(ground.directions, near.guides, near.shares);
+        const size_t before = groom.drawn.size();
+        add_drawn(groom, ground, strand, place, int(i));
+        if (!hair.drawn || groom.drawn.size() == before)
+            continue;
+        // As long as in the file, as far as those that it goes along with reach.
+        const float4 w = strand.weights;
+        const float mixed = w.x * groom.segment_length[size_t(strand.guide0)] +
+                            w.y * groom.segment_length[size_t(strand.guide1)] +
+                            w.z * groom.segment_length[size_t(strand.guide2)];
+        const float own = hair.length(i) * p.head_scale / float(groom.nodes - 2);
+        float& cut = groom.drawn.back().root.w;
+        cut = std::min(1.0f, cut * own / std::max(mixed, 1e-9f));
+    }
+}
+
 // A guide's curl, if it is one of the strand's own shape.
 struct Curl
 {
@@ -425,18 +535,30 @@ Groom grow(const Shaping& shaping)
         ground.sides.push_back(ground.varied ? sides_at(shaping, at_vertex(scalp, g)) : Sides{});
     }
 
-    if (host.groom_rest.shapes)
+    if (scalp.hair)
+    {
+        std::vector<float> factor;
+        for (const float length : ground.lengths)
+            factor.push_back(length / p.strand_length);
+        take_hair(groom, scalp, p, factor);
+        for (size_t g = 0; g < ground.directions.size(); ++g)
+            ground.directions[g] = glm::vec3(vector_at(groom.root_direction.data(), int(g), 0, 1));
+    }
+    else if (host.groom_rest.shapes)
         take_shapes(groom, *host.groom_rest.shapes, scalp, p.head_scale);
 
     const bool all = p.interpolation_guides == GUIDES_ALL;
     const int single = int(std::lround(double(p.interpolation_strands) * double(p.interpolation_ratio)));
     const int multi = all ? 0 : p.interpolation_strands - single;
     groom.drawn.reserve(size_t(p.interpolation_strands));
-    grow_multi(groom, ground, multi);
-    groom.drawn_multi = int(groom.drawn.size());
-    if (all)
-        grow_all(groom, ground, p.interpolation_strands);
+    if (scalp.hair)
+        grow_placed(groom, ground);
     else
+        grow_multi(groom, ground, multi);
+    groom.drawn_multi = scalp.hair && all ? 0 : int(groom.drawn.size());
+    if (!scalp.hair && all)
+        grow_all(groom, ground, p.interpolation_strands);
+    else if (!scalp.hair)
         grow_single(groom, ground, single, multi);
     for (size_t i = 0; i < groom.drawn.size(); ++i)
     {

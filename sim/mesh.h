@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Between
     glm::vec3 shares{1.0f, 0.0f, 0.0f};
 };
 
+struct PlacedHair; // sim/exchange/place.h
+
 // A scalp: vertex i carries guide i.
 struct Scalp : Mesh
 {
@@ -33,7 +36,8 @@ struct Scalp : Mesh
     float radius = 0.0f;                                 // of that sphere, m
     float extent = 0.0f;                                 // longest side of the vertices' bounding box, m
     std::map<std::string, std::vector<unsigned>> groups; // of the file: name -> vertices of its triangles
-    std::vector<Between> between; // of each vertex after the authored ones; only of those before it
+    std::vector<Between> between;           // of each vertex after the authored ones; only of those before it
+    std::shared_ptr<const PlacedHair> hair; // of a file, that stands on it; null: none
 };
 
 constexpr size_t kMostVertices = 65536; // of a scalp

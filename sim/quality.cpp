@@ -223,7 +223,7 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, Assets& a
     quality.node_error = error_of_links(p.strand_nodes - 2);
 
     // Each refinement of the scalp has about four times as many guides.
-    const bool all = p.interpolation_guides == GUIDES_ALL; // nothing is between
+    const bool all = p.interpolation_guides == GUIDES_ALL || scalp.hair; // nothing is between, or a file says where
     const bool guides_pinned = all || pinned(style, "interpolation.refine");
     const int vertices = int(scalp.positions.size());
     const double of_guides = std::max(tolerance, error_of_links(kMostNodes - 2)); // guides never move better than that

@@ -1,5 +1,6 @@
 #include "sim/scatter.h"
 
+#include "sim/exchange/place.h"
 #include "sim/groom.h"
 
 #include <glm/geometric.hpp>
@@ -51,6 +52,13 @@ std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
 
 Scalp guide_scalp(const Scalp& authored, const HairParams& params)
 {
+    if (authored.hair)
+    {
+        std::vector<Between> places;
+        for (const unsigned strand : simulated_strands(*authored.hair, params))
+            places.push_back(authored.hair->place[strand]);
+        return strewn(authored, places);
+    }
     if (params.interpolation_guides != GUIDES_ALL)
         return refined(authored, params.interpolation_refine);
     const int more = params.interpolation_strands - int(authored.positions.size());

@@ -23,8 +23,8 @@ glm::vec3 shares_over_triangle(float b, float c);
 std::vector<Between> spread_places(const Scalp& scalp, int count, int seed);
 
 // The scalp whose vertices carry the guides: the authored one refined as interpolation.refine says or, where all drawn
-// strands are simulated, with as many vertices strewn over it as there are strands. Authored vertices come first.
-// Throws Error as refined().
+// strands are simulated, with as many vertices strewn over it as there are strands; with hair of a file on it, with a
+// vertex at each root of that hair that is simulated. Authored vertices come first. Throws Error as refined().
 Scalp guide_scalp(const Scalp& authored, const HairParams& params);
 
 } // namespace coif

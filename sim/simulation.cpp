@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include "sim/error.h"
+#include "sim/exchange/place.h"
 #include "sim/material.h"
 #include "sim/rest_shape.h"
 #include "sim/scatter.h"
@@ -48,6 +49,17 @@ Assets load_assets(const Hairstyle& style)
     if (const auto& rest = style.host.groom_rest.shapes)
         placed(style, "groom.rest", [&] { check_shapes(*rest, assets.scalp); });
     check_lists(style, assets.scalp);
+    if (!style.host.groom_import.empty())
+    {
+        if (style.host.groom_rest.shapes)
+            placed(style, "groom.rest",
+                   [] { throw fail("groom.rest and groom.import both say how hair lies: take one of them out"); });
+        assets.scalp.hair = load("groom.import", style.host.groom_import,
+                                 [&](const std::filesystem::path& file) {
+                                     return std::make_shared<const PlacedHair>(
+                                         place_hair(read_hair_file(file), assets.scalp, style.params));
+                                 });
+    }
     if (!style.host.head_mesh.empty())
         assets.head = load("head.mesh", style.host.head_mesh,
                            [&](const std::filesystem::path& file)
@@ -187,12 +199,18 @@ void Simulation::set_bodies(const Hairstyle& style)
     solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));
 }
 
+// Does a file say how hair lies at rest?
+static bool is_stored(const Hairstyle& style)
+{
+    return style.host.groom_rest.shapes || !style.host.groom_import.empty();
+}
+
 // Lets hair fall to where it rests, and begins there: nothing sags when it is first seen. First in air thick enough to
 // stop it soon and on slippery bodies, so that what friction holds later it holds with some to spare; then as it is.
 // What hair holds of that shape (bending.hold) it finds again with its own weight on it.
 void Simulation::drape()
 {
-    if (style_.params.solver_kind != 0 || style_.host.groom_rest.shapes) // which is where it rests
+    if (style_.params.solver_kind != 0 || is_stored(style_)) // that is where it rests
         return;
     constexpr int kLookEvery = 16, kMost = 320; // steps
     constexpr double kThick = 15.0;             // 1/s: near critical for the slowest swing of 0.2 m
@@ -262,11 +280,15 @@ static bool same_hair(const Hairstyle& a, const Hairstyle& b)
 
 void Simulation::set_style(const Hairstyle& authored, bool reload)
 {
-    const bool meshes =
-        reload || authored.params.head_unit != authored_.params.head_unit ||
-        authored.params.head_up != authored_.params.head_up ||
-        std::ranges::any_of(param_table(), [&](const ParamInfo& info)
-                            { return info.kind == Kind::TEXT && !same_value(authored, authored_, info); });
+    const bool meshes = reload || authored.params.head_unit != authored_.params.head_unit ||
+                        authored.params.head_up != authored_.params.head_up ||
+                        std::ranges::any_of(param_table(),
+                                            [&](const ParamInfo& info)
+                                            {
+                                                const bool loaded =
+                                                    info.kind == Kind::TEXT || info.path().starts_with("groom.import");
+                                                return loaded && !same_value(authored, authored_, info);
+                                            });
     Assets fresh = meshes ? load_assets(authored) : Assets{}; // may throw; nothing has changed yet
     Quality quality = quality_;
     Hairstyle style = authored;
@@ -291,7 +313,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         const Groom& old = solver_->groom();
         // Strands that go on where they are begin again, if ever, where they did.
         const bool held = style.params.bending_hold > 0.0f || style_.params.bending_hold > 0.0f;
-        const bool stored = style.host.groom_rest.shapes || style_.host.groom_rest.shapes;
+        const bool stored = is_stored(style) || is_stored(style_);
         refall = groom.guides != old.guides || groom.nodes != old.nodes ||
                  (held && style.params.solver_kind == 0 && !stored);
         if (!refall && groom.rest_position.empty())
