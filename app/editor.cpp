@@ -123,7 +123,7 @@ void Editor::take(const std::filesystem::path& file)
 {
     if (is_hair_file(file))
     {
-        take_hair(file);
+        import_hair(file);
         return;
     }
     guarded(
@@ -138,7 +138,7 @@ void Editor::take(const std::filesystem::path& file)
 }
 
 // A new style beside a file of hair, which is not written before it is saved.
-void Editor::take_hair(const std::filesystem::path& file)
+void Editor::import_hair(const std::filesystem::path& file)
 {
     std::string came_of_it; // empty where nothing did
     guarded(

@@ -152,7 +152,7 @@ class Editor
     void draw_history();
     void draw_quality(float top);
     void take(const std::filesystem::path& file); // opens without asking
-    void take_hair(const std::filesystem::path& file);
+    void import_hair(const std::filesystem::path& file);
     void show(const Hairstyle& fresh, const Hairstyle& saved);
     void recover(size_t which);
     void look_at_files();
