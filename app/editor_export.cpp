@@ -41,6 +41,7 @@ void Editor::ask_export_words()
     if (asked == e.asked || e.telling.valid())
         return;
     e.asked = asked;
+    redraw_ = kRedraw;
     e.words.clear();
     e.trouble.clear();
     try
@@ -104,6 +105,8 @@ void Editor::look_at_export()
     Exporting& e = exporting_;
     if (e.telling.valid() || e.writing.valid())
         redraw_ = std::max(redraw_, 1);
+    if (is_ready(e.telling) || is_ready(e.writing))
+        redraw_ = kRedraw;
     if (is_ready(e.telling))
         try
         {
@@ -178,7 +181,8 @@ void Editor::draw_export()
         {
             ImGui::SameLine();
             ImGui::SetNextItemWidth(90.0f);
-            ImGui::InputText("frames", &e.frames.frames);
+            ImGui::InputText("frames", &e.frames.frames, ImGuiInputTextFlags_AutoSelectAll);
+            e.places["frames"] = last_widget();
             ImGui::SameLine();
             ImGui::SetNextItemWidth(70.0f);
             ImGui::InputDouble("a second", &e.frames.fps, 0.0, 0.0, "%g");

@@ -105,8 +105,10 @@ std::string write_export(const ExportPlan& plan, const Curves& curves, const Cac
     const uint64_t bytes = file.size();
     file.finish();
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    return fmt::format("{}: {}{}, in {:.2g} s", plan.file.string(), size_text({bytes, true}),
-                       cache ? fmt::format(", {} frames", cache->count) : "", spent.count());
+    const double seconds = spent.count();
+    return fmt::format("{}: {}{}, in {} s", plan.file.string(), size_text({bytes, true}),
+                       cache ? fmt::format(", {} frames", cache->count) : "",
+                       seconds < 10.0 ? fmt::format("{:.2g}", seconds) : fmt::format("{:.0f}", seconds));
 }
 
 std::vector<Frame> export_moments(ExportPlan& plan, const SequenceOptions& frames, double time)
