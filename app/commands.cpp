@@ -307,6 +307,7 @@ static int command(std::vector<std::string> words, bool only_look)
                               "Fewer points: under a minute instead of a quarter of an hour");
     measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
         ->delimiter(',');
+    with_processes(measure_command, "Scenes measured at a time, each by a process of its own; only with --untimed");
     measure_command->add_flag("--untimed", measured.untimed, "No prices in it, so that equal work gives equal bytes");
     measure_command->add_option(
         "-o,--output", options.output,
@@ -439,7 +440,7 @@ static int command(std::vector<std::string> words, bool only_look)
         return measure(options, measured);
     if (bench_command->parsed())
         return bench(options, benched);
-    strained.jobs = processes;
+    strained.jobs = measured.jobs = processes;
     if (stress_command->parsed())
         return run_stress(options, strained);
     if (check_command->parsed())

@@ -388,6 +388,11 @@ TEST_F(Batches, measure_in_lines_is_measure)
     ASSERT_EQ(coif("merge jobs.txt --out D -o merged.csv").status, 0);
     ASSERT_EQ(coif("measure --quick --only A1,A2 --untimed -o measured").status, 0);
     EXPECT_EQ(contents("merged.csv"), contents("measured/measure.csv"));
+    const Result many = coif("measure --quick --only A1,A2 --untimed -o many -j 2");
+    ASSERT_EQ(many.status, 0) << many.err;
+    EXPECT_EQ(contents("many/measure.csv"), contents("measured/measure.csv"));
+    EXPECT_EQ(contents("many/measure.json"), contents("measured/measure.json"));
+    EXPECT_EQ(coif("measure --quick --only A1,A2 -o many -j 2").status, 1) << "prices want the machine alone";
     // With a row that misses its bound the merge has the status of the command, and is there.
     std::string table = contents("merged.csv");
     write("table.csv", table.substr(0, table.find('\n') + 1) + "A1,,x,direct,,,,1,L,,,,,,0.5,0.1,MISSED\n");

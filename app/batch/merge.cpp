@@ -31,11 +31,12 @@ static std::string who(const Task& task) { return fmt::format("task {} ({})", ta
 static std::vector<Part> parts_of(const std::vector<Task>& tasks, const fs::path& folder)
 {
     const auto results = results_in(folder);
+    const std::string program = digest_of_program();
     std::vector<Part> parts;
     size_t missing = 0, wrong = 0;
     for (const Task& task : tasks)
     {
-        const std::string stem = stem_of(task, key_of(task));
+        const std::string stem = stem_of(task, key_of(task, program));
         const auto found = results.find(stem);
         std::vector<const Found*> whole;
         if (found != results.end())

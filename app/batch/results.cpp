@@ -65,9 +65,9 @@ std::string digest_of_file(const fs::path& file)
     return digits_of(hash);
 }
 
-// The program itself and what it ships.
-static void add_program(Hash& hash)
+std::string digest_of_program()
 {
+    Hash hash;
     static const std::string program = digest_of_file("/proc/self/exe"); // which cannot change while it runs
     add(hash, program);
     for (const char* part : {"kernels", "shaders", "hairstyles", "assets", "assets/motions"})
@@ -84,6 +84,7 @@ static void add_program(Hash& hash)
             add_file(hash, file);
         }
     }
+    return digits_of(hash);
 }
 
 static void gather(const toml::node& node, std::vector<std::string>& texts)
@@ -148,10 +149,10 @@ struct Named
 };
 } // namespace
 
-std::string key_of(const Task& task)
+std::string key_of(const Task& task, const std::string& program)
 {
     Hash hash;
-    add_program(hash);
+    add(hash, program);
     add(hash, task.name);
     for (const std::string& word : task.words)
         add(hash, word);

@@ -16,8 +16,9 @@ namespace coif
 std::string digest_of_file(const std::filesystem::path& file);
 
 // What a task's result hangs on: its words, every file that they name, those that such a file names (of a .toml or
-// .gltf), the program, and its kernels, shaders, presets and assets. Read anew at each call. Throws Error.
-std::string key_of(const Task& task);
+// .gltf), and `program`. All is read anew at each call. Throws Error.
+std::string digest_of_program(); // its kernels, shaders, presets and assets too
+std::string key_of(const Task& task, const std::string& program = digest_of_program());
 
 std::string stem_of(const Task& task, const std::string& key); // "000104-KEY"
 

@@ -297,10 +297,11 @@ int run_tasks(const std::vector<Task>& tasks, const RunOptions& wanted)
 {
     make_folder(wanted.folder);
     std::vector<const Task*> mine;
+    const std::string program = digest_of_program();
     for (const Task& task : tasks)
         if (wanted.shard.holds(task))
         {
-            key_of(task); // what cannot be read is told before any work
+            key_of(task, program); // what cannot be read is told before any work
             mine.push_back(&task);
         }
 
@@ -342,8 +343,9 @@ static fs::path scratch_folder()
 RunHere::RunHere(const std::vector<std::string>& lines, int jobs) : folder_(scratch_folder())
 {
     tasks_ = parse_list(fmt::format("{}\n", fmt::join(lines, "\n")), "tasks", [](const auto&) {});
+    const std::string program = digest_of_program();
     for (const Task& task : tasks_)
-        stems_.push_back(stem_of(task, key_of(task)));
+        stems_.push_back(stem_of(task, key_of(task, program)));
     RunOptions wanted;
     wanted.folder = folder_;
     wanted.jobs = jobs;

@@ -1,5 +1,8 @@
 #include "app/measure/measure.h"
 
+#include "app/batch/jobs.h"
+#include "app/batch/run.h"
+#include "app/csv.h"
 #include "app/image.h"
 #include "app/measure/plots.h"
 #include "app/progress.h"
@@ -32,9 +35,34 @@ static void forget_prices(std::vector<Row>& rows)
         row.ms = row.ns_strand_frame = NAN;
 }
 
+// The scenes as the tasks of `coif jobs sweep`.
+static std::vector<Row> measure_by_tasks(const Options& options, const MeasureOptions& wanted)
+{
+    JobsOptions jobs;
+    jobs.only = wanted.only;
+    if (wanted.quick)
+        jobs.passed.push_back("--quick");
+    if (!options.device.empty())
+        jobs.passed.insert(jobs.passed.end(), {"--device", options.device});
+    const std::vector<std::string> lines = sweep_jobs(jobs);
+    const RunHere done(lines, wanted.jobs);
+    std::vector<std::pair<std::string, std::string>> tables;
+    for (size_t i = 0; i < lines.size(); ++i)
+    {
+        std::string fault;
+        const fs::path file = done.result(i, &fault);
+        if (file.empty())
+            throw fail("coif {}: {}", lines[i], fault);
+        tables.emplace_back(lines[i], read_file(file));
+    }
+    return rows_of(joined_csv(tables));
+}
+
 int measure(const Options& options, const MeasureOptions& wanted)
 {
     const std::vector<Scene> all = wanted_scenes(wanted.only);
+    if (wanted.jobs > 1 && !wanted.untimed)
+        throw fail("-j {}: scenes that run at once disturb each other's prices; say --untimed, or -j 1", wanted.jobs);
     const fs::path folder = options.output.empty() ? "measure" : options.output;
     const bool rows_alone = folder.extension() == ".csv" && !fs::is_directory(folder);
     if (rows_alone)
@@ -46,7 +74,12 @@ int measure(const Options& options, const MeasureOptions& wanted)
     const Progress line;
 
     std::vector<Row> rows;
-    for (size_t i = 0; i < all.size(); ++i)
+    if (wanted.jobs > 1 && all.size() > 1)
+    {
+        line.say(fmt::format("{} scenes in {} processes", all.size(), wanted.jobs));
+        rows = measure_by_tasks(options, wanted);
+    }
+    for (size_t i = 0; rows.empty() && i < all.size(); ++i)
     {
         with.progress = [&](const std::string& doing)
         { line.say(fmt::format("{} of {}: {}: {}", i + 1, all.size(), all[i].id, doing)); };

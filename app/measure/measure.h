@@ -13,6 +13,7 @@ struct MeasureOptions
     bool quick = false;            // fewer points and shorter runs: under a minute
     std::vector<std::string> only; // ids of scenes; empty: all
     bool untimed = false;          // no prices
+    int jobs = 1;                  // processes for the scenes; more than one only without prices
 };
 
 // What a scene is given to work with.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace coif
 {
 
@@ -59,6 +61,28 @@ std::string csv_of(const std::vector<Row>& rows)
         out += verdict(row) + "\n";
     }
     return out;
+}
+
+std::vector<Row> rows_of(const std::string& csv)
+{
+    std::vector<Row> rows;
+    const auto records = csv_records(csv);
+    for (size_t r = 1; r < records.size(); ++r)
+    {
+        Row row;
+        for (size_t c = 0; c < std::size(kColumns); ++c)
+        {
+            const std::string field = c < records[r].size() ? records[r][c] : "";
+            if (kColumns[c].text)
+                row.*kColumns[c].text = field;
+            else if (!field.empty())
+                row.*kColumns[c].number = std::strtod(field.c_str(), nullptr);
+        }
+        // The one thing that no column says, the verdict tells.
+        row.at_least = row.judged() && row.passed() == (records[r].back() == "MISSED");
+        rows.push_back(row);
+    }
+    return rows;
 }
 
 std::string json_of(const std::vector<Row>& rows, const std::string& device, bool quick)

@@ -43,6 +43,7 @@ bool in_percent(const Row& row);     // do people read its error best so: fracti
 
 // All rows with a head line, fields quoted as RFC 4180 asks.
 std::string csv_of(const std::vector<Row>& rows);
+std::vector<Row> rows_of(const std::string& csv); // to six digits
 
 // One object: what ran on what, and the rows.
 std::string json_of(const std::vector<Row>& rows, const std::string& device, bool quick);
