@@ -24,6 +24,19 @@ bool is_hair_file(const fs::path& file)
     return std::ranges::any_of(kSuffixes, [&](const char* one) { return suffix == one; });
 }
 
+// Strands whose tips are this share of their length above their roots stand up. A stalk can where its droop number is
+// less than 7.8 (Greenhill, Determination of the greatest height consistent with stability, 1881); hair as limp as the
+// default falls over, however it was combed.
+static constexpr float kStands = 0.3f, kStandingDroop = 4.0f;
+
+static size_t standing_strands(const PlacedHair& hair)
+{
+    size_t standing = 0;
+    for (size_t s = 0; s < hair.strands(); ++s)
+        standing += hair.position[hair.first[s + 1] - 1].y > kStands * hair.length(s);
+    return standing;
+}
+
 // IEC 61966-2-1, to the byte, as styles write colours.
 static float srgb_byte(float linear)
 {
@@ -91,6 +104,14 @@ Hairstyle imported_style(const fs::path& file, const fs::path& target, const Imp
     // Lengths that regions and maps tell are against this one.
     p.strand_length = std::clamp(std::round(placed.mean * 1000.0f) / 1000.0f, 0.002f, 1.5f);
     report = import_report(placed, p) + moved;
+    const bool droop_told =
+        std::ranges::any_of(options.sets, [](const std::string& set) { return set.starts_with("bending."); });
+    if (const size_t standing = standing_strands(placed); 10 * standing > placed.strands() && !droop_told)
+    {
+        p.bending_droop = kStandingDroop;
+        report += fmt::format("{} of its strands stand up, which limp hair does not: bending.droop is set to {}\n",
+                              standing, kStandingDroop);
+    }
     return style;
 }
 

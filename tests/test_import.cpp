@@ -5,6 +5,7 @@
 #include "tests/editor_window.h"
 #include "tests/on_device.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace coif;
@@ -39,7 +40,7 @@ std::string some_hair(int strands)
     const uint32_t numbers[] = {uint32_t(strands), uint32_t(strands * kPoints), 2u, kPoints - 1u};
     memcpy(header.data(), "HAIR", 4);
     memcpy(header.data() + 4, numbers, sizeof numbers);
-    header.replace(40, 13, "metres, y up");
+    header.replace(40, 12, "metres, y up");
     return header + points;
 }
 } // namespace
@@ -63,23 +64,24 @@ TEST(Import, hair_rests_as_it_lies_in_the_file_and_moves_as_any)
         const auto tips_off = [&]
         {
             const Mapped position = simulation.solver().guide_positions();
-            double most = 0.0;
+            std::vector<double> off;
             for (size_t i = 0; i < strands.size(); ++i)
             {
                 const int g = first + int(i);
                 const glm::dvec3 root = vector_at(simulation.solver().groom().root_position.data(), g, 0, 1);
                 const glm::dvec3 tip(hair.position[hair.first[strands[i] + 1] - 1]);
-                most = std::max(most, glm::distance(vector_at(position.as<float>(), g, nodes - 1, nodes), root + tip));
+                off.push_back(glm::distance(vector_at(position.as<float>(), g, nodes - 1, nodes), root + tip));
             }
-            return most;
+            std::ranges::sort(off);
+            return off;
         };
-        EXPECT_LT(tips_off(), 0.0005) << "of 15 cm";
+        EXPECT_LT(tips_off().back(), 1e-5);
         simulation.settle(2.0);
-        EXPECT_LT(tips_off(), 0.005) << "of 15 cm";
+        EXPECT_LT(tips_off().back(), 1e-5) << "m, of strands that stand up as much as they hang";
         simulation.play(find_motion("shake"));
         for (int i = 0; i < 60; ++i)
             simulation.step({});
-        EXPECT_GT(tips_off(), 0.01) << "it moves";
+        EXPECT_GT(tips_off()[200], 0.01) << "it moves";
     }
     fs::remove_all(folder);
 }

@@ -190,6 +190,9 @@ TEST(ReadHair, what_cannot_be_read_says_what_to_do)
     EXPECT_NE(told("solid cube", ".stl").find("Alembic (.abc), .hair, USD text"), std::string::npos);
     EXPECT_NE(told("", ".hair").find("is no file of hair"), std::string::npos);
     EXPECT_NE(told("#usda 1.0\ndef Xform \"a\"\n{\n}\n", ".usda").find("holds no strands of hair"), std::string::npos);
+    EXPECT_NE(told("#usda 1.0\ndef BasisCurves \"a\" { int[] curveVertexCounts = [] point3f[] points = [] }", ".usda")
+                  .find("holds no strands of hair"),
+              std::string::npos);
     EXPECT_EQ(told("#usda 1.0\ndef Xform \"a\"\n{\n", ".usda"),
               "x:4: the prim 'a' has no end: the file was not copied whole");
     EXPECT_EQ(told("#usda 1.0\ndef Xform \"a\"\n{\n    float3[] points = [(1, 2\n", ".usda"),
@@ -339,6 +342,28 @@ TEST(ReadHair, usd_in_the_words_of_others)
     EXPECT_EQ(c.color[0], glm::vec3(1, 0, 0));
     EXPECT_EQ(c.color[4], glm::vec3(0, 1, 0));
     EXPECT_TRUE(c.root_uv.empty());
+}
+
+// Moved by 10 along z and twice as large; in it one more turned from x to y, moved by 5 and turned again, of which the
+// curves are; and one that does not inherit that, half a turn about y.
+TEST(ReadHair, alembic_under_transforms_with_indexed_values)
+{
+    const HairFile file = read_hair_file(sample("nested.abc"));
+    const Curves& c = file.curves;
+    ASSERT_EQ(c.count, (std::vector<uint32_t>{3, 2, 4}));
+    // A row of (x, y): by the matrix (5 - y, x), then turned (-x, 5 - y), doubled.
+    const glm::vec3 wanted[] = {{0, 10, 10}, {-2, 10, 10}, {-4, 10, 10}, {0, 8, 10}, {0, 6, 10},
+                                {0, 0, 0},   {-5, 1, 0},   {-6, 5, -1},  {-6, 6, -6}}; // the last a B-spline
+    for (size_t i = 0; i < 9; ++i)
+        EXPECT_LT(glm::distance(c.position[i], wanted[i]), 2e-6f)
+            << i << ": " << c.position[i].x << " " << c.position[i].y << " " << c.position[i].z;
+    const std::vector<float> width = {0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 0.1f, 0.1f, 0.1f, 0.1f};
+    EXPECT_LT(farthest(c.width, width), 1e-6f) << "as large as the transforms make them";
+    EXPECT_EQ(c.root_uv, (std::vector<glm::vec2>{{0.5f, 0.75f}, {0.0f, 0.0f}, {0.1f, 0.2f}}));
+    EXPECT_EQ(c.guide, (std::vector<uint8_t>{1, 1, 0}));
+    EXPECT_EQ(c.group, (std::vector<int32_t>{0, 0, 1}));
+    EXPECT_EQ(c.group_name, (std::vector<std::string>{"fringe", "strand"}));
+    EXPECT_EQ(file.remark, std::vector<std::string>{"its 1 PolyMesh objects are no hair, and are not read"});
 }
 
 } // namespace
