@@ -60,12 +60,19 @@ HairFile read_hair(std::string_view all, const std::string& name)
         file.curves.color = bytes.values<glm::vec3>(at, points, "colours");
     else
         file.curves.color.assign(points, bytes.value<glm::vec3>(28, "header"));
-    // The format has no place for it, so that coif writes it where there is one for words.
+    // The format has no place for it, so that coif writes it where there is one for words (words_of()).
     const std::string_view info = all.substr(40, 88);
-    if (info.find("metres") != info.npos)
+    const auto says = [&](std::string_view word) { return info.find(word) != info.npos; };
+    if (says("; metres"))
         file.unit = 1.0f;
-    if (info.find("y up") != info.npos)
+    else if (says("; centimetres"))
+        file.unit = 0.01f;
+    if (says("; y up"))
         file.up = HAIR_UP_Y;
+    else if (says("; z up, left handed"))
+        file.up = HAIR_UP_UNREAL;
+    else if (says("; z up"))
+        file.up = HAIR_UP_Z;
     return file;
 }
 
