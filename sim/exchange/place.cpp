@@ -228,6 +228,8 @@ static std::vector<unsigned> farthest_roots(const std::vector<glm::vec3>& roots,
     return chosen;
 }
 
+static constexpr size_t kMostStrands = 200000; // as many as interpolation.strands may ask for
+
 PlacedHair place_hair(const HairFile& file, const Scalp& scalp, const HairParams& params)
 {
     const Curves& c = file.curves;
@@ -254,6 +256,9 @@ PlacedHair place_hair(const HairFile& file, const Scalp& scalp, const HairParams
 
     std::vector<unsigned> from; // [strand] its number in the file
     std::vector<glm::vec3> roots;
+    const size_t all = c.strands(), most = std::min(all, kMostStrands);
+    if (all > most)
+        hair.remark.push_back(fmt::format("of its {} strands {} are taken, evenly", all, most));
     size_t dropped = 0;
     float farthest_dropped = 0.0f;
     hair.shortest = INFINITY;
@@ -261,6 +266,8 @@ PlacedHair place_hair(const HairFile& file, const Scalp& scalp, const HairParams
     double sum = 0.0;
     for (size_t s = 0; s < c.strands(); ++s)
     {
+        if (s * most / all == (s + 1) * most / all) // as many in every stretch of the file
+            continue;
         const size_t count = c.count[s];
         const auto point = [&](size_t k)
         { return in_frame(c.position[begin[s] + (backwards ? count - 1 - k : k)], frame); };
@@ -294,13 +301,13 @@ PlacedHair place_hair(const HairFile& file, const Scalp& scalp, const HairParams
         hair.longest = std::max(hair.longest, length);
         sum += double(length);
     }
-    if (2 * dropped > c.strands())
+    if (2 * dropped > most)
     {
         const glm::vec3 by = frame.offset + fitting_offset(file, frame, scalp);
         throw fail("{} of the {} strands do not stand on this scalp, the farthest root is {:.3g} m off it, or are no "
                    "hair of 0.1 mm to 10 m: {}. groom.import_scale and groom.import_up say what its numbers are, "
                    "groom.import_offset = [{:.3f}, {:.3f}, {:.3f}] would bring its roots to the scalp",
-                   dropped, c.strands(), farthest_dropped, hair.said, by.x, by.y, by.z);
+                   dropped, most, farthest_dropped, hair.said, by.x, by.y, by.z);
     }
     if (dropped > 0)
         hair.remark.push_back(fmt::format("{} of its strands have roots more than {:.0f} mm from the scalp, or are no "
