@@ -271,6 +271,25 @@ TEST(PlaceHair, of_many_strands_the_others_go_along)
         EXPECT_EQ(groom.drawn[i].guide0, int(authored + i));
 }
 
+TEST(PlaceHair, of_a_million_strands_as_many_are_taken_as_can_be_drawn)
+{
+    const Scalp& scalp = whole_scalp();
+    HairFile file;
+    for (int i = 0; i < 300000; ++i)
+    {
+        const glm::vec3 root = scalp.positions[size_t(i) % scalp.positions.size()];
+        file.curves.count.push_back(2);
+        file.curves.position.insert(file.curves.position.end(), {root, root + glm::vec3(0.0f, -0.1f, 0.0f)});
+    }
+    HairParams params;
+    params.groom_import_guides = 3;
+    const PlacedHair hair = place_hair(file, scalp, params);
+    EXPECT_EQ(hair.strands(), 200000u);
+    EXPECT_EQ(hair.guides.size(), 3u);
+    ASSERT_EQ(hair.remark.size(), 1u);
+    EXPECT_EQ(hair.remark[0], "of its 300000 strands 200000 are taken, evenly");
+}
+
 TEST(PlaceHair, a_style_names_it_and_keeps_the_name)
 {
     Scratch scratch;
