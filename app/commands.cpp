@@ -414,6 +414,7 @@ static int command(std::vector<std::string> words, bool only_look)
         return 2;
     }
     parse_size(sheet_command->parsed() ? cell_size : size, shot);
+    strained.jobs = measured.jobs = processes;
     if (only_look)
     {
         if (!options.style.empty())
@@ -440,7 +441,6 @@ static int command(std::vector<std::string> words, bool only_look)
         return measure(options, measured);
     if (bench_command->parsed())
         return bench(options, benched);
-    strained.jobs = measured.jobs = processes;
     if (stress_command->parsed())
         return run_stress(options, strained);
     if (check_command->parsed())

@@ -84,17 +84,18 @@ class Batches : public Commands
         }
         return false;
     }
-    // Is there a process that has this word in its command line?
-    static bool is_running(const std::string& word)
+    // A process that has this in its command line, its words parted by blanks; 0: there is none.
+    static pid_t process_with(const std::string& words)
     {
         for (const auto& entry : fs::directory_iterator("/proc"))
         {
             std::ifstream in(entry.path() / "cmdline", std::ios::binary);
-            const std::string line{std::istreambuf_iterator<char>(in), {}};
-            if (line.find(word) != line.npos)
-                return true;
+            std::string line{std::istreambuf_iterator<char>(in), {}};
+            std::ranges::replace(line, '\0', ' ');
+            if (line.find(words) != line.npos)
+                return std::atoi(entry.path().filename().c_str());
         }
-        return false;
+        return 0;
     }
     int shell(const std::string& command, const std::string& setting = {}) const
     {
@@ -186,8 +187,7 @@ TEST_F(Batches, a_run_that_is_killed_goes_on_to_the_same_bytes)
     ASSERT_TRUE(comes_true([&] { return fs::exists(folder / "killed") && results("killed").size() >= 2; }));
     kill(runner, SIGKILL);
     EXPECT_EQ(end_of(runner), 128 + SIGKILL);
-    EXPECT_TRUE(comes_true([&] { return !is_running((folder / "killed").filename().string() + "/0000"); }, 5s))
-        << "its tasks die with it";
+    EXPECT_TRUE(comes_true([&] { return process_with("-o killed/0000") == 0; }, 5s)) << "its tasks die with it";
     const size_t left = results("killed").size();
     ASSERT_LT(left, 6u) << "it was killed too late to tell anything";
     for (const std::string& name : results("killed"))
@@ -507,8 +507,6 @@ TEST_F(Batches, slurm_with_a_killed_shard_does_the_same)
     const std::string send = "'" COIF_SOURCE_FOLDER "/examples/batch/slurm.sh' lab.txt D 2 merged.csv";
     const auto is_idle = [&] { return shell("squeue -h", conf) == 0 && contents("out.txt").empty(); };
     ASSERT_EQ(shell(send, conf), 0) << contents("err.txt");
-    const int array = std::atoi(contents("out.txt").c_str());
-    ASSERT_GT(array, 0);
     // Shard 1 has the tasks 1, 3 and 5.
     const auto done = [&](const char* task)
     {
@@ -516,7 +514,9 @@ TEST_F(Batches, slurm_with_a_killed_shard_does_the_same)
                std::ranges::any_of(results("D"), [&](const std::string& name) { return name.starts_with(task); });
     };
     ASSERT_TRUE(comes_true([&] { return done("000001"); })) << "the first task of shard 1";
-    ASSERT_EQ(shell("scancel --full --signal=KILL " + std::to_string(array) + "_1", conf), 0) << contents("err.txt");
+    const pid_t shard = process_with("coif run lab.txt --out D --shard 1/2");
+    ASSERT_GT(shard, 0);
+    ASSERT_EQ(kill(shard, SIGKILL), 0);
     ASSERT_TRUE(comes_true(is_idle));
     EXPECT_FALSE(done("000005")) << "it was killed too late to tell anything";
     EXPECT_FALSE(fs::exists(folder / "merged.csv")) << "the merge waits for shards that end well";

@@ -74,12 +74,13 @@ int measure(const Options& options, const MeasureOptions& wanted)
     const Progress line;
 
     std::vector<Row> rows;
-    if (wanted.jobs > 1 && all.size() > 1)
+    const bool by_tasks = wanted.jobs > 1 && all.size() > 1;
+    if (by_tasks)
     {
         line.say(fmt::format("{} scenes in {} processes", all.size(), wanted.jobs));
         rows = measure_by_tasks(options, wanted);
     }
-    for (size_t i = 0; rows.empty() && i < all.size(); ++i)
+    for (size_t i = 0; !by_tasks && i < all.size(); ++i)
     {
         with.progress = [&](const std::string& doing)
         { line.say(fmt::format("{} of {}: {}: {}", i + 1, all.size(), all[i].id, doing)); };
