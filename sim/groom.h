@@ -73,5 +73,6 @@ DrawnStrand mixed_of(const std::vector<glm::vec3>& directions, const glm::uvec3&
 
 // A uniform number in [0, 1) that depends on nothing but its arguments. PCG output of a hashed state, O'Neill 2014.
 float random01(int seed, int index, int channel);
+float random_sign(int seed, int index, int channel); // the same from -1 to 1
 
 } // namespace coif

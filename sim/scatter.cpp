@@ -11,7 +11,7 @@ namespace coif
 {
 
 // Streams of random numbers, among those of sim/groom.cpp.
-enum Channel
+enum
 {
     kTriangle = 2,
     kWeightA,
