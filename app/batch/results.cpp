@@ -116,7 +116,8 @@ static std::vector<std::string> texts_in(const fs::path& file)
     if (file.extension() == ".gltf")
     {
         const std::string text = read_file(file, 256 << 20);
-        static const std::regex uri("\"uri\"\\s*:\\s*\"([^\"]{1,255})\"");
+        // Bounded: a repetition is walked by recursion.
+        static const std::regex uri("\"uri\"\\s{0,16}:\\s{0,16}\"([^\"]{1,255})\"");
         for (std::sregex_iterator i(text.begin(), text.end(), uri), end; i != end; ++i)
             texts.push_back((*i)[1]);
     }
