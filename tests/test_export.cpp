@@ -10,7 +10,11 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 using namespace coif;
 using namespace coif::test;
@@ -285,6 +289,66 @@ TEST_F(Commands, a_cache_holds_the_poses_of_its_frames)
     const std::string text = contents("c.usda");
     for (const char* line : {"startTimeCode = 3\n", "endTimeCode = 7\n", "timeCodesPerSecond = 24\n"})
         EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
+TEST_F(Commands, blender_takes_the_edges_of_obj_and_ply_whole_and_upright)
+{
+    if (std::system("command -v blender > /dev/null") != 0)
+        GTEST_SKIP() << "Blender is not installed: apt-get install blender";
+    for (const char* suffix : {".obj", ".ply"})
+        ASSERT_EQ(
+            coif(std::string("export small.toml --time 0 --strands guides --points 8 --for blender -o b") + suffix)
+                .status,
+            0);
+    write("count.py", R"(import bpy
+for read in (lambda: bpy.ops.wm.obj_import(filepath="b.obj"),
+             lambda: (bpy.ops.wm.ply_import if hasattr(bpy.types, "WM_OT_ply_import") else bpy.ops.import_mesh.ply)(filepath="b.ply")):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    read()
+    meshes = [o for o in bpy.data.objects if o.type == "MESH"]
+    points = [o.matrix_world @ v.co for o in meshes for v in o.data.vertices]
+    print("seen", len(points), sum(len(o.data.edges) for o in meshes),
+          *["%.5f %.5f" % (min(p[i] for p in points), max(p[i] for p in points)) for i in range(3)])
+)");
+    ASSERT_EQ(std::system(("cd '" + folder.string() +
+                           "' && blender --background --factory-startup --python count.py > seen.txt 2> seen.err")
+                              .c_str()),
+              0);
+    // The guides as the .obj has them: y up.
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    int points = 0;
+    std::istringstream lines(contents("b.obj"));
+    for (std::string line; std::getline(lines, line);)
+    {
+        double p[3];
+        if (std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) != 3)
+            continue;
+        ++points;
+        for (int i = 0; i < 3; ++i)
+        {
+            low[i] = std::min(low[i], p[i]);
+            high[i] = std::max(high[i], p[i]);
+        }
+    }
+    ASSERT_GT(points, 1000);
+    std::istringstream words(contents("seen.txt"));
+    int files = 0;
+    for (std::string line; std::getline(words, line);)
+    {
+        int vertices = 0, edges = 0;
+        double x[2], y[2], z[2];
+        if (std::sscanf(line.c_str(), "seen %d %d %lf %lf %lf %lf %lf %lf", &vertices, &edges, &x[0], &x[1], &y[0],
+                        &y[1], &z[0], &z[1]) != 8)
+            continue;
+        ++files;
+        EXPECT_EQ(vertices, points);
+        EXPECT_EQ(edges, points / 8 * 7);
+        EXPECT_NEAR(x[0], low[0], 2e-5);
+        EXPECT_NEAR(z[0], low[1], 2e-5) << "height";
+        EXPECT_NEAR(z[1], high[1], 2e-5) << "height";
+        EXPECT_NEAR(y[1], -low[2], 2e-5) << "the back of the head";
+    }
+    EXPECT_EQ(files, 2) << contents("seen.txt") << contents("seen.err");
 }
 
 TEST_F(Commands, exports_that_cannot_be_say_why_and_leave_no_file)
