@@ -72,9 +72,11 @@ void set_other(Hairstyle& style, const ParamInfo& info)
 
 TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther)
 {
-    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, and what only
-    // the shaders read of a wave. There is one way yet to choose guides.
+    // Of these this hair knows nothing: where the head's mesh is and what it is for, since there is none, how another
+    // tool's file is read (tests/host/test_place_hair.cpp), and what only the shaders read of a wave. There is one way
+    // yet to choose guides.
     std::set<std::string> elsewhere = read_by_shaders_only();
+    elsewhere.insert({"groom.import_up", "groom.import_scale", "groom.import_offset", "groom.import_guides"});
     elsewhere.insert({"head.mesh_scale", "head.unit", "head.up", "interpolation.guides", "head.contact"});
     struct Settled
     {
