@@ -54,11 +54,12 @@ static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose 
 // is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Only the last substep's walk need be
 // `exact` (nearest_body). Returns the strands that it found in contact.
 #define WALK_ROUNDS 6
-#define TOUCHING 1e-5f // of a segment: what lies that deep is on the surface
+#define TOUCHING 1e-5f // of a segment: what lies that deep is on the surface, until the last substep
 static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, held_count held,
                              const real* inside, int exact)
 {
     whole touched = (whole)(0);
+    const real deep_enough = exact ? (real)(0.0f) : -TOUCHING * rest;
     for (int k = 2; k < NODES; ++k)
     {
         const Points parent = x[k - 1];
@@ -79,7 +80,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
         {
             const Nearest nearest = nearest_body(bodies, head, k, at, exact);
             const real gap = nearest.distance + inside[k];
-            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < -TOUCHING * rest) & ~clear;
+            const whole in = UNLESS_HELD(k, held, (whole)(0), gap < deep_enough) & ~clear;
             if (!any_lane(in))
                 break;
             touched |= in;

@@ -247,7 +247,7 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
             const Vec at = parent + d + round(6.0 * (glm::length(parent) + rest));
             const Nearest body = nearest_body(step, now, ground[size_t(k)], at, exact, round);
             const double gap = body.distance + inside[size_t(k)];
-            if (!(gap < -1e-5 * rest))
+            if (!(gap < (exact ? 0.0 : -1e-5 * rest)))
                 break;
             touched = true;
             const Vec n = glm::normalize(body.away + round(8.0));
