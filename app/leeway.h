@@ -24,7 +24,7 @@ constexpr int kMostHalvings = 4;
 // wanted while `dragging`, as long as the last level saved a tenth; up one every second frame while not.
 void note_frame(Leeway& leeway, double ms, bool dragging);
 
-// A line for the figures: "a hand drags: 1/4 of the strands, to keep 25 frames a second"; empty at full quality.
+// A line for the figures: "while dragging: 1/4 of the strands, to keep 25 frames a second"; empty at full quality.
 std::string leeway_text(const Leeway& leeway);
 
 } // namespace coif
