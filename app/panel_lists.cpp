@@ -251,6 +251,16 @@ static bool add_entry(std::vector<Tie>& list, size_t most)
     return true;
 }
 
+static bool add_entry(std::vector<Light>& list, size_t most)
+{
+    if (list.size() >= most || !ImGui::Button("add a light"))
+        return false;
+    Light light;
+    light.name = fmt::format("light {}", list.size() + 1);
+    list.push_back(light);
+    return true;
+}
+
 static std::string title_of(const Collider& c, size_t i)
 {
     return fmt::format("{} {}", c.to ? "capsule" : "sphere", i + 1);
@@ -260,6 +270,10 @@ static std::string title_of(const Parting&, size_t i) { return fmt::format("part
 static std::string title_of(const Tie& tie, size_t i)
 {
     return tie.name.empty() ? fmt::format("tie {}", i + 1) : tie.name;
+}
+static std::string title_of(const Light& light, size_t i)
+{
+    return light.name.empty() ? fmt::format("light {}", i + 1) : light.name;
 }
 static std::string title_of(const ScalpMap& map, size_t) { return "map of " + map.of; }
 

@@ -2,6 +2,7 @@
 #include "app/gl.h"
 #include "app/image.h"
 #include "app/strand_colors.h"
+#include "sim/lights.h"
 #include "sim/simulation.h"
 
 #include <glm/mat4x4.hpp>
@@ -37,6 +38,7 @@ struct FrameInput
     const Simulation* simulation = nullptr; // meshes, colliders and style; the views below are of its last draw()
     Mapped drawn_positions, drawn_frames, guide_positions, optical_depth;
     HairParams params; // as authored
+    Lighting lighting;
     Camera camera;
     StrandColors colors;      // instead of the hair's own, where render.colors asks for them
     bool transparent = false; // no backdrop: alpha instead

@@ -371,6 +371,12 @@ static void check(const Parting& parting, const EntryReader& at)
             throw at.wrong(node, "points", fmt::format("says the point {} twice", i));
 }
 
+static void check(const Light& light, const EntryReader& at)
+{
+    if (light.direction == glm::vec3(0.0f))
+        throw at.wrong(*at.table.get("direction"), "direction", "is no direction: one of its numbers must not be 0");
+}
+
 static void check(ScalpMap& map, const EntryReader& at)
 {
     const ParamInfo* info = find_param(map.of);

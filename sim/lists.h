@@ -73,7 +73,19 @@ enum MapKind
     MAP_OVER // colours
 };
 
+// One that is so far away that it comes from one direction.
+struct Light
+{
+    std::string name;
+    glm::vec3 direction{0.45f, 0.75f, 0.6f}; // towards it, in the world; of any length but 0
+    glm::vec3 color{1.0f};                   // sRGB
+    float irradiance = 2.6f;                 // of a surface that faces it: white is then as bright as this over pi
+    float angle = 0.0f;                      // deg: radius of its disc in the sky
+    bool operator==(const Light&) const = default;
+};
+
 // As kernels/params.def calls them.
+using light_entry = Light;
 using collider_entry = Collider;
 using region_entry = Region;
 using parting_entry = Parting;
@@ -120,6 +132,17 @@ void fields(Visitor& visit, Entry& entry)
 {
     visit.points("points", entry.points, kPlaces);
     visit.number("reach", entry.reach, Limits{0.001f, 1.0f, "m"});
+}
+
+template <typename Visitor, typename Entry>
+requires std::same_as<std::remove_const_t<Entry>, Light>
+void fields(Visitor& visit, Entry& entry)
+{
+    visit.text("name", entry.name);
+    visit.point("direction", entry.direction, Limits{-1.0f, 1.0f, ""}, kNeeded);
+    visit.color("color", entry.color);
+    visit.number("irradiance", entry.irradiance, Limits{0.0f, 100.0f, ""});
+    visit.number("angle", entry.angle, Limits{0.0f, 60.0f, "deg"});
 }
 
 template <typename Visitor, typename Entry>
