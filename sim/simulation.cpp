@@ -173,9 +173,16 @@ static bool same_group(const char* group, const Hairstyle& a, const Hairstyle& b
                                { return info.group != std::string_view(group) || same_value(a, b, info); });
 }
 
-// Do the shapes that strands are grown in differ, or is there now something to grow that there was not?
+// Do the shapes or the pigments that strands are grown with differ, or is there now something to grow that there was
+// not?
 static bool grown_otherwise(const Hairstyle& a, const Hairstyle& b)
 {
+    const bool melanin = a.params.look_pigment != 0 || b.params.look_pigment != 0;
+    if (melanin && varies(b.host) &&
+        (a.params.look_pigment != b.params.look_pigment ||
+         a.params.look_root_darkening != b.params.look_root_darkening ||
+         a.params.look_azimuthal_roughness != b.params.look_azimuthal_roughness))
+        return true; // each strand has dye colours of its own
     const bool waves = waves_are_shape(a.params), curls = curls_are_shape(a.params);
     return waves != waves_are_shape(b.params) || curls != curls_are_shape(b.params) ||
            ((waves || curls) && !same_group("wave", a, b)) || (curls && !same_group("curl", a, b)) ||
