@@ -63,26 +63,31 @@ Studio::Studio(const Device& device, const Hairstyle& style, const Motion& motio
     simulation_.play(motion);
 }
 
-void Studio::play_to(double seconds)
+void play_to(Simulation& simulation, double seconds)
 {
-    const long steps = std::lround(seconds / simulation_.step_seconds());
-    while (simulation_.steps() < steps)
+    const long steps = std::lround(seconds / simulation.step_seconds());
+    while (simulation.steps() < steps)
     {
-        simulation_.step(simulation_.hand());
-        if (simulation_.steps() % 16 == 1)
-            simulation_.solver().take_times(); // lets the queue's uploads go
+        simulation.step(simulation.hand());
+        if (simulation.steps() % 16 == 1)
+            simulation.solver().take_times(); // lets the queue's uploads go
     }
+}
+
+Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn)
+{
+    Camera camera = camera_of(simulation.params());
+    if (!shot.camera.empty())
+        camera = parse_camera(shot.camera, camera);
+    camera.yaw += turn;
+    camera.target += simulation.jumped();
+    return camera;
 }
 
 Image Studio::picture(double turn)
 {
     simulation_.solver().draw();
-    Camera camera = camera_of(simulation_.params());
-    if (!shot_.camera.empty())
-        camera = parse_camera(shot_.camera, camera);
-    camera.yaw += turn;
-    camera.target += simulation_.jumped();
-    FrameInput frame = frame_input(simulation_, camera);
+    FrameInput frame = frame_input(simulation_, shot_camera(simulation_, shot_, turn));
     frame.samples = shot_.samples;
     frame.transparent = shot_.transparent;
     return renderer_.picture(frame, shot_.width, shot_.height);

@@ -21,6 +21,12 @@ void parse_size(const std::string& text, ShotOptions& shot);
 // Throws Error for options that no picture can be taken with, before anything is opened for it.
 void check_shot(const Options& options, const ShotOptions& shot);
 
+// Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
+void play_to(Simulation& simulation, double seconds);
+
+// The camera that is asked for, `turn` (rad) further round its target; with the head where teleports have carried it.
+Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn);
+
 // A style that plays a motion, and pictures of it as time goes on: equal styles, times and options give equal pictures,
 // however many were taken before. Needs a current GL context; the device must outlive it.
 class Studio
@@ -28,8 +34,7 @@ class Studio
   public:
     Studio(const Device& device, const Hairstyle& style, const Motion& motion, const ShotOptions& shot);
 
-    // Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
-    void play_to(double seconds);
+    void play_to(double seconds) { coif::play_to(simulation_, seconds); }
     // Taken from `turn` (rad) further round the camera's target than the options say.
     Image picture(double turn = 0.0);
 

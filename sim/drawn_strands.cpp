@@ -97,7 +97,7 @@ static void add_drawn(Groom& groom, StrandGround& ground, DrawnStrand strand, co
         strand.root.w = std::min(1.0f, strand.root.w * p.strand_length / std::max(length, 1e-6f));
         const auto linear = [](const float4& c)
         { return F4(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z), 1.0f); };
-        const auto with = [](const float4& color, float w) { return F4(color.x, color.y, color.z, w); };
+        const auto with = [](const float4& color, float more) { return F4(color.x, color.y, color.z, more); };
         HairParams dyed = p;
         dyed.look_root_color = linear(p.look_root_color);
         dyed.look_tip_color = linear(p.look_tip_color);
