@@ -1,4 +1,6 @@
 // The rings that gather hair, and the bands at the ends of braids.
+#include "app/renderer_rings.h"
+
 #include "app/renderer.h"
 
 #include "sim/tied_hair.h"
@@ -14,17 +16,8 @@ namespace coif
 
 static constexpr int kAround = 96, kAcross = 16; // corners of a ring
 
-namespace
-{
-struct Band // a ring of cloth, m
-{
-    glm::vec3 center, axis;
-    float radius, thickness;
-};
-} // namespace
-
 // Corners of a band, as attributes lie in Renderer: pleated like cloth over a rubber band, wider than it is thick.
-static std::vector<float> corners_of(const Band& band)
+std::vector<float> corners_of(const Band& band)
 {
     const glm::vec3 t = glm::normalize(band.axis);
     const glm::vec3 side =
@@ -65,29 +58,36 @@ static Band end_of(const FrameInput& frame, const Tail& braid, float thickness)
     return {glm::mix(a, b, at - float(node)), b - a + glm::vec3(0.0f, 1e-9f, 0.0f), 0.75f * braid.plait, thickness};
 }
 
-void Renderer::draw_rings(const FrameInput& frame, const ShaderProgram& program)
+std::vector<Ring> rings_of(const FrameInput& frame)
 {
     const Groom& groom = frame.simulation->solver().groom();
-    const auto draw_band = [&](const Band& band, const Tie& tie, bool on_head)
-    {
-        const std::vector<float> corners = corners_of(band);
-        const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
-        glUniform4f(program.uniform("albedo"), linear(tie.color.x), linear(tie.color.y), linear(tie.color.z), 0.0f);
-        glUniform1i(program.uniform("on_head"), on_head);
-        glBindBuffer(GL_ARRAY_BUFFER, ring_buffer_);
-        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(float)), corners.data(), GL_STREAM_DRAW);
-        glDrawElements(GL_TRIANGLES, ring_index_count_, GL_UNSIGNED_INT, nullptr);
-    };
-    glUniform4f(program.uniform("place"), 0.0f, 0.0f, 0.0f, 1.0f);
-    glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
-    glBindVertexArray(ring_array_);
     const std::vector<Tie>& ties = frame.simulation->style().host.ties;
+    std::vector<Ring> rings;
     for (size_t i = 0; i < ties.size(); ++i)
     {
         const Tie& tie = ties[i];
-        draw_band({tie.at * frame.params.head_scale, tie.axis, tie.radius, tie.thickness}, tie, true);
+        const glm::vec3 color(linear_of_srgb(tie.color.x), linear_of_srgb(tie.color.y), linear_of_srgb(tie.color.z));
+        rings.push_back({{tie.at * frame.params.head_scale, tie.axis, tie.radius, tie.thickness}, color, true});
         if (tie.braid && groom.tails[i].length > 0.0f)
-            draw_band(end_of(frame, groom.tails[i], 0.6f * tie.thickness), tie, false);
+            rings.push_back({end_of(frame, groom.tails[i], 0.6f * tie.thickness), color, false});
+    }
+    return rings;
+}
+
+void Renderer::draw_rings(const FrameInput& frame, const ShaderProgram& program)
+{
+    glUniform4f(program.uniform("place"), 0.0f, 0.0f, 0.0f, 1.0f);
+    glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
+    glBindVertexArray(ring_array_);
+    for (const Ring& ring : rings_of(frame))
+    {
+        const std::vector<float> corners = corners_of(ring.band);
+        glUniform4f(program.uniform("albedo"), ring.color.x, ring.color.y, ring.color.z, 0.0f);
+        glUniform1i(program.uniform("on_head"), ring.on_head);
+        next_colors(corners.size() / 7);
+        glBindBuffer(GL_ARRAY_BUFFER, ring_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(float)), corners.data(), GL_STREAM_DRAW);
+        glDrawElements(GL_TRIANGLES, ring_index_count_, GL_UNSIGNED_INT, nullptr);
     }
 }
 

@@ -73,7 +73,8 @@ void Renderer::upload_mesh(const FrameInput& frame)
             radius = std::max(radius, glm::distance(middle, scalp.positions[t[k]]));
         balls.emplace_back(middle, radius);
     }
-    std::vector<float> vertices;
+    std::vector<float>& vertices = mesh_vertices_;
+    vertices.clear();
     vertices.reserve(assets.head.positions.size() * 7);
     for (size_t i = 0; i < assets.head.positions.size(); ++i)
     {
@@ -246,6 +247,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    light(frame);
     if (params.render_show == 1)
         return;
     if (method_of(params) == BY_OPENCL)
@@ -253,8 +255,8 @@ void Renderer::upload(const FrameInput& frame)
         const Solver& solver = frame.simulation->solver();
         if (!rasteriser_ || rasteriser_->device().context() != solver.device().context())
             rasteriser_ = std::make_unique<Rasteriser>(solver.device());
-        rastered_ = std::make_unique<RasterStrands>(
-            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}, frame.kept});
+        rastered_ = std::make_unique<RasterStrands>(RasterStrands{
+            &solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}, frame.kept, nullptr});
         for (int i = 0; i < RAMP && !rastered_->values.empty(); ++i)
         {
             const glm::vec3 color = ramp_color((float(i) + 0.5f) / float(RAMP));
