@@ -113,6 +113,7 @@ ShaderProgram::ShaderProgram(const std::filesystem::path& folder, const std::str
         glBindAttribLocation(id_, 2, "roots");
         glBindAttribLocation(id_, 3, "along");
         glBindAttribLocation(id_, 4, "value");
+        glBindAttribLocation(id_, 5, "color");
         glLinkProgram(id_);
         GLint ok = 0;
         glGetProgramiv(id_, GL_LINK_STATUS, &ok);

@@ -61,37 +61,21 @@ static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view
     return frame;
 }
 
-void Rasteriser::room_for(const std::string& name, size_t bytes)
+Rasteriser::Rasteriser(const Device& device)
+    : passes_(device, fmt::format("-D WIDTH={} -D BAND={}", device.width, band(device)), "drawing the strands")
 {
-    size_t& held = bytes_[name];
-    if (buffers_.contains(name) && held >= bytes)
-        return;
-    buffers_.erase(name); // before the new one is asked for
-    buffers_[name] = allocate(device_, bytes, "drawing the strands");
-    held = bytes;
 }
 
 float* Rasteriser::solid_depth(int width, int height)
 {
     constexpr size_t kBeyond = 16; // lanes may look past the last pixel
     const size_t bytes = (size_t(width) * size_t(height) + kBeyond) * sizeof(float);
-    room_for("solid", bytes);
+    passes_.room_for("solid", bytes);
     width_ = width;
     height_ = height;
-    solid_ = static_cast<float*>(device_.queue.enqueueMapBuffer(buffers_["solid"], CL_TRUE, CL_MAP_WRITE, 0, bytes));
+    solid_ = static_cast<float*>(
+        passes_.device.queue.enqueueMapBuffer(passes_.buffers["solid"], CL_TRUE, CL_MAP_WRITE, 0, bytes));
     return solid_;
-}
-
-void Rasteriser::launch(const std::string& pass, const std::string& extra, size_t items)
-{
-    const std::string key = pass + extra;
-    if (!kernels_.contains(key))
-        kernels_[key] =
-            load_kernel(device_, pass, fmt::format("-D WIDTH={} -D BAND={} {}", device_.width, band(device_), extra));
-    // On CPUs each work-item is a group of its own, or PoCL would give few groups to one core.
-    const size_t group = device_.is_gpu && items > 1 ? 64 : 1;
-    launches_.emplace_back(pass, run(device_, kernels_[key], buffers_, cl::NDRange((items + group - 1) / group * group),
-                                     cl::NDRange(group)));
 }
 
 void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
@@ -103,16 +87,16 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
         strand.first -= first;
     frame.listed = int(batch.size());
     frame.points = points_end - first;
-    room_for("listed", batch.size() * sizeof(RasterStrand));
-    room_for("points", size_t(frame.points) * 8 * sizeof(float));
-    write(device_, buffers_["listed"], batch);
-    write(device_, buffers_["frame"], std::vector<RasterFrame>(1, frame));
+    passes_.room_for("listed", batch.size() * sizeof(RasterStrand));
+    passes_.room_for("points", size_t(frame.points) * 8 * sizeof(float));
+    write(passes_.device, passes_.buffers["listed"], batch);
+    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame));
     const size_t tiles = size_t(frame.tiles_x) * size_t(frame.tiles_y);
-    launch("raster_points", options, batch.size());
-    launch("raster_count", "", size_t(frame.chunks));
-    launch("raster_sum", "", tiles);
-    launch("raster_scan", "", 1);
-    const std::vector<int> begins = read<int>(device_, buffers_["tile_begin"], tiles + 1);
+    passes_.launch("raster_points", options, batch.size());
+    passes_.launch("raster_count", "", size_t(frame.chunks));
+    passes_.launch("raster_sum", "", tiles);
+    passes_.launch("raster_scan", "", 1);
+    const std::vector<int> begins = read<int>(passes_.device, passes_.buffers["tile_begin"], tiles + 1);
     const size_t pieces = size_t(begins.back());
     if (pieces > most_pieces && batch.size() > 1)
     {
@@ -123,11 +107,11 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
     }
     if (pieces == 0)
         return;
-    room_for("binned", pieces * sizeof(RasterPiece));
-    room_for("half_sorted", pieces * sizeof(RasterPiece));
-    launch("raster_fill", "", size_t(frame.chunks));
-    launch("raster_sort", "", tiles);
-    launch("raster_compose", "", tiles * size_t(TILE / band(device_)));
+    passes_.room_for("binned", pieces * sizeof(RasterPiece));
+    passes_.room_for("half_sorted", pieces * sizeof(RasterPiece));
+    passes_.launch("raster_fill", "", size_t(frame.chunks));
+    passes_.launch("raster_sort", "", tiles);
+    passes_.launch("raster_compose", "", tiles * size_t(TILE / band(passes_.device)));
     frame.later = 1;
     ++batches_;
     pieces_ += pieces;
@@ -144,57 +128,62 @@ RasterPicture Rasteriser::draw(const RasterStrands& strands, const RasterView& v
 try
 {
     assert(solid_ && view.width == width_ && view.height == height_);
-    device_.queue.enqueueUnmapMemObject(buffers_["solid"], std::exchange(solid_, nullptr));
-    launches_.clear();
+    passes_.device.queue.enqueueUnmapMemObject(passes_.buffers["solid"], std::exchange(solid_, nullptr));
+    passes_.forget_times();
     batches_ = 0;
     pieces_ = 0;
     low_ = glm::ivec2(view.width, view.height);
     high_ = glm::ivec2(0);
-    RasterFrame frame = frame_of(strands, view, chunks(device_), least_width);
+    RasterFrame frame = frame_of(strands, view, chunks(passes_.device), least_width);
     if (frame.strands == 0)
         return {};
     const Groom& groom = strands.solver->groom();
     for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands"})
-        buffers_[shared] = strands.solver->buffers().at(shared);
+        passes_.buffers[shared] = strands.solver->buffers().at(shared);
     const size_t count = size_t(frame.strands), pixels = size_t(view.width) * size_t(view.height);
     const size_t tiles = size_t(frame.tiles_x) * size_t(frame.tiles_y);
     const size_t blocks = size_t(frame.blocks_x) * size_t(frame.blocks_y);
-    room_for("params", sizeof(HairParams));
-    room_for("frame", sizeof(RasterFrame));
-    room_for("braids", strands.braids.size() * sizeof(float4));
-    room_for("wave_table", 2 * kWaveSamples * sizeof(float));
-    room_for("farthest", blocks * sizeof(float));
-    room_for("pieces", count * size_t(groom.nodes));
-    room_for("strand_points", count * sizeof(int));
-    room_for("strand_depth", count * sizeof(float));
-    room_for("counts", size_t(frame.chunks) * tiles * sizeof(int));
-    room_for("tile_count", tiles * sizeof(int));
-    room_for("tile_begin", (tiles + 1) * sizeof(int));
-    room_for("picture", pixels * 4 * sizeof(cl_half));
-    write(device_, buffers_["params"], std::vector<HairParams>(1, strands.params));
-    write(device_, buffers_["frame"], std::vector<RasterFrame>(1, frame));
-    write(device_, buffers_["braids"], strands.braids);
-    write(device_, buffers_["wave_table"], strands.waves);
+    passes_.room_for("params", sizeof(HairParams));
+    passes_.room_for("frame", sizeof(RasterFrame));
+    passes_.room_for("braids", strands.braids.size() * sizeof(float4));
+    passes_.room_for("wave_table", 2 * kWaveSamples * sizeof(float));
+    passes_.room_for("farthest", blocks * sizeof(float));
+    passes_.room_for("pieces", count * size_t(groom.nodes));
+    passes_.room_for("strand_points", count * sizeof(int));
+    passes_.room_for("strand_depth", count * sizeof(float));
+    passes_.room_for("counts", size_t(frame.chunks) * tiles * sizeof(int));
+    passes_.room_for("tile_count", tiles * sizeof(int));
+    passes_.room_for("tile_begin", (tiles + 1) * sizeof(int));
+    passes_.room_for("picture", pixels * 4 * sizeof(cl_half));
+    write(passes_.device, passes_.buffers["params"], std::vector<HairParams>(1, strands.params));
+    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame));
+    write(passes_.device, passes_.buffers["braids"], strands.braids);
+    write(passes_.device, passes_.buffers["wave_table"], strands.waves);
     std::string options = fmt::format("-D NODES={}{}", groom.nodes, groom.looks.empty() ? "" : " -D VARIED");
     if (!strands.values.empty())
     {
         options += " -D VALUES";
-        room_for("values", strands.values.size() * sizeof(float));
-        room_for("ramp", strands.ramp.size() * sizeof(float4));
-        write(device_, buffers_["values"], strands.values);
-        write(device_, buffers_["ramp"], strands.ramp);
+        passes_.room_for("values", strands.values.size() * sizeof(float));
+        passes_.room_for("ramp", strands.ramp.size() * sizeof(float4));
+        write(passes_.device, passes_.buffers["values"], strands.values);
+        write(passes_.device, passes_.buffers["ramp"], strands.ramp);
+    }
+    else if (strands.shaded)
+    {
+        options += fmt::format(" -D SHADED={}", strands.shaded->pieces);
+        passes_.buffers["shaded"] = strands.shaded->colors;
     }
 
-    launch("raster_solids", "", blocks);
-    launch("raster_measure", options, count);
+    passes_.launch("raster_solids", "", blocks);
+    passes_.launch("raster_measure", options, count);
     std::vector<RasterStrand> listed;
-    const std::vector<int> points = read<int>(device_, buffers_["strand_points"], count);
+    const std::vector<int> points = read<int>(passes_.device, passes_.buffers["strand_points"], count);
     for (int s = 0; s < frame.strands; ++s)
         if (points[size_t(s)] > 0)
             listed.push_back({s, 0});
     if (std::accumulate(points.begin(), points.end(), size_t(0)) > most_points)
     {
-        const std::vector<float> depths = read<float>(device_, buffers_["strand_depth"], count);
+        const std::vector<float> depths = read<float>(passes_.device, passes_.buffers["strand_depth"], count);
         const auto depth = [&](const RasterStrand& s)
         { return std::isfinite(depths[size_t(s.strand)]) ? depths[size_t(s.strand)] : 0.0f; };
         std::ranges::stable_sort(listed, {}, depth);
@@ -214,30 +203,12 @@ try
     }
     if (batches_ == 0)
         return {};
-    return {Mapped(device_, buffers_["picture"], pixels * 4 * sizeof(cl_half)), low_.x, low_.y, high_.x - low_.x,
-            high_.y - low_.y};
+    return {Mapped(passes_.device, passes_.buffers["picture"], pixels * 4 * sizeof(cl_half)), low_.x, low_.y,
+            high_.x - low_.x, high_.y - low_.y};
 }
 catch (const cl::Error& e)
 {
     throw fail("OpenCL error {} from {} while drawing the strands", e.err(), e.what());
-}
-
-PassTimes Rasteriser::take_times()
-{
-    device_.queue.finish();
-    PassTimes times;
-    for (const auto& [pass, event] : launches_)
-    {
-        const double ms = 1e-6 * double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                        event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
-        const auto known = std::ranges::find(times, pass, &PassTimes::value_type::first);
-        if (known == times.end())
-            times.emplace_back(pass, ms);
-        else
-            known->second += ms;
-    }
-    launches_.clear();
-    return times;
 }
 
 } // namespace coif

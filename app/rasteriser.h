@@ -1,14 +1,12 @@
 #pragma once
+#include "app/passes.h"
 #include "kernels/raster.h"
-#include "sim/solver.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace coif
@@ -24,16 +22,24 @@ struct RasterView
     int width, height;
 };
 
+// Colours at places of the strands, as many on each segment: kernels/look_shade.cl.
+struct ShadedStrands
+{
+    cl::Buffer colors;
+    int pieces = 1; // on a segment
+};
+
 // What is drawn: the solver's drawn strands as they lie on its device, and what else tells of them.
 struct RasterStrands
 {
     const Solver* solver = nullptr;
-    HairParams params;          // as the device reads them
-    std::vector<float> waves;   // wave_table() of sim/wave.h
-    std::vector<float4> braids; // braid_values() of sim/tied_hair.h
-    std::vector<float> values;  // one a node on the ramp; empty: the hair has its own colours
-    std::vector<float4> ramp;   // RAMP colours
-    float kept = 1.0f;          // share of them that is drawn, each as much wider
+    HairParams params;                     // as the device reads them
+    std::vector<float> waves;              // wave_table() of sim/wave.h
+    std::vector<float4> braids;            // braid_values() of sim/tied_hair.h
+    std::vector<float> values;             // one a node on the ramp; empty: the hair has its own colours
+    std::vector<float4> ramp;              // RAMP colours
+    float kept = 1.0f;                     // share of them that is drawn, each as much wider
+    const ShadedStrands* shaded = nullptr; // colours in place of the hair's own, if they are worked out before
 };
 
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
@@ -48,18 +54,18 @@ struct RasterPicture
 class Rasteriser
 {
   public:
-    explicit Rasteriser(const Device& device) : device_(device) {}
+    explicit Rasteriser(const Device& device);
 
     // Where the depth of what is solid is to be written, 0 to 1, row by row, before draw(); valid until then.
     float* solid_depth(int width, int height);
     RasterPicture draw(const RasterStrands& strands, const RasterView& view);
 
-    const Device& device() const { return device_; }
-    const Buffers& buffers() const { return buffers_; } // for tests: by kernel argument
+    const Device& device() const { return passes_.device; }
+    const Buffers& buffers() const { return passes_.buffers; } // for tests: by kernel argument
     // Of the last draw().
     int batches() const { return batches_; }
     size_t pieces() const { return pieces_; } // in tiles
-    PassTimes take_times();
+    PassTimes take_times() { return passes_.take_times(); }
 
     // Strands that are thinner than so many pixels on the whole are drawn fewer and as much wider. 0: never.
     float least_width = 0.25f;
@@ -67,20 +73,14 @@ class Rasteriser
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
   private:
-    void launch(const std::string& pass, const std::string& extra, size_t items);
-    void room_for(const std::string& name, size_t bytes);
     void draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
                     int points_end, const std::string& options);
 
-    Device device_; // its handles: a device that is gone and another in its place are not taken for one
-    Buffers buffers_;
-    std::map<std::string, size_t> bytes_; // of the buffers that are our own
-    std::map<std::string, Kernel> kernels_;
+    Passes passes_;
     float* solid_ = nullptr; // mapped
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span
     size_t pieces_ = 0;
-    std::vector<std::pair<std::string, cl::Event>> launches_;
 };
 
 } // namespace coif

@@ -1,6 +1,7 @@
 #include "app/renderer.h"
 
 #include "app/rasteriser.h"
+#include "app/shading.h"
 #include "sim/error.h"
 
 #include <SDL.h>
@@ -108,7 +109,7 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
 {
     for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_,
                            &index_buffer_, &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_,
-                           &guide_buffer_, &ring_buffer_, &ring_indices_, &braid_buffer_})
+                           &guide_buffer_, &ring_buffer_, &ring_indices_, &braid_buffer_, &solid_colors_})
         *buffer = make_buffer();
     for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &guide_array_, &empty_array_})
         *array = make_array();
@@ -164,6 +165,7 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sphere_indices_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(unsigned)), faces.data(), GL_STATIC_DRAW);
     sphere_index_count_ = GLsizei(faces.size());
+    sphere_vertices_ = sphere;
 
     glBindVertexArray(ring_array_);
     glBindBuffer(GL_ARRAY_BUFFER, ring_buffer_);
@@ -200,6 +202,10 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 
     glGenTextures(1, &rastered_texture_);
+    glGenTextures(1, &shades_texture_);
+    glBindTexture(GL_TEXTURE_2D, shades_texture_);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
 
     const int nobody = 0;
     glGenBuffers(1, &leader_buffer_);
@@ -221,12 +227,12 @@ Renderer::~Renderer()
     }
     for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
                           mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_,
-                          ring_buffer_, ring_indices_, braid_buffer_})
+                          ring_buffer_, ring_indices_, braid_buffer_, solid_colors_})
         glDeleteBuffers(1, &buffer);
     for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
     for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_,
-                           braid_texture_, rastered_texture_})
+                           braid_texture_, rastered_texture_, shades_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -234,6 +240,8 @@ void Renderer::reload_shaders()
 {
     programs_ = std::make_unique<Programs>(shader_folder_);
     rasteriser_.reset(); // its kernels are compiled anew when they are next asked for
+    shading_.reset();
+    lit_by_.clear();
 }
 
 Method Renderer::method_of(const HairParams& params)
@@ -297,6 +305,8 @@ void Renderer::draw_solids(const FrameInput& frame)
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     glUniform1i(program.uniform("optical_depth"), 0);
+    glUniform1i(program.uniform("worked_out"), shaded_);
+    colors_at_ = 0;
 
     const float4 skin = params.head_color;
     glUniform4f(program.uniform("albedo"), skin.x, skin.y, skin.z, params.head_scalp_tint);
@@ -304,6 +314,7 @@ void Renderer::draw_solids(const FrameInput& frame)
     glUniform1i(program.uniform("on_head"), 1);
     glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
     glBindVertexArray(mesh_array_);
+    next_colors(mesh_vertices_.size() / 7);
     glDrawElements(GL_TRIANGLES, mesh_index_count_, GL_UNSIGNED_INT, nullptr);
 
     glUniform4f(program.uniform("albedo"), 0.30f, 0.34f, 0.40f, 0.0f);
@@ -316,6 +327,7 @@ void Renderer::draw_solids(const FrameInput& frame)
         const float4 c = placed[i].center, axis = placed[i].axis;
         glUniform4f(program.uniform("place"), c.x, c.y, c.z, c.w);
         glUniform3f(program.uniform("stretch"), axis.x, axis.y, axis.z);
+        next_colors(sphere_vertices_.size() / 7);
         glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
     }
     draw_rings(frame, program);
@@ -341,6 +353,10 @@ void Renderer::draw_strands(const FrameInput& frame)
     glActiveTexture(GL_TEXTURE4);
     glBindTexture(GL_TEXTURE_BUFFER, braid_texture_);
     glUniform1i(program.uniform("braids"), 4);
+    glActiveTexture(GL_TEXTURE5);
+    glBindTexture(GL_TEXTURE_2D, shades_texture_);
+    glUniform1i(program.uniform("shades"), 5);
+    glUniform1i(program.uniform("shaded_pieces"), shaded_ ? shaded_pieces_ : 0);
     glActiveTexture(GL_TEXTURE0);
     glUniform1i(program.uniform("braided"), braided_);
     glUniform1f(program.uniform("widening"), 1.0f / frame.kept);
@@ -427,6 +443,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel;
     const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
                                               (bottom + float(part.height) * pixel) * near, near, far);
+    shade(frame, eye);
     FrameBlock block;
     block.view_projection = projection * glm::lookAt(eye, target, glm::vec3(0, 1, 0));
     block.camera_position = F4(eye.x, eye.y, eye.z, pixel);

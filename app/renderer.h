@@ -15,7 +15,10 @@ namespace coif
 {
 
 class Rasteriser;
+class Shading;
+struct LookSurface;
 struct RasterStrands;
+struct Ring;
 struct RasterView;
 
 // From where a picture is taken, in the world.
@@ -99,10 +102,16 @@ class Renderer
     void make_rings();
     void upload_looks(const std::vector<StrandLook>& looks);
     void upload_colors(const FrameInput& frame);
+    void upload_shades();
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
     void draw_solids(const FrameInput& frame);
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
+    // For the levels above Kajiya-Kay: renderer_look.cpp.
+    void light(const FrameInput& frame);
+    void shade(const FrameInput& frame, glm::vec3 eye);
+    std::vector<LookSurface> solid_points(const FrameInput& frame) const;
+    void next_colors(size_t points);
     void draw_strands(const FrameInput& frame);
     void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
@@ -113,17 +122,23 @@ class Renderer
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Rasteriser> rasteriser_;  // none until it is asked for
-    std::unique_ptr<RasterStrands> rastered_; // what it draws
-    glm::ivec2 rastered_size_{0};             // of its texture
-    Target scene_, single_, sum_;             // multisampled or not; one sample a pixel; all samples added up
+    std::unique_ptr<Rasteriser> rasteriser_;             // none until it is asked for
+    std::unique_ptr<Shading> shading_;                   // none until a level asks for it
+    std::vector<char> lit_by_, seen_from_;               // what it has worked out last
+    bool shaded_ = false;                                // are colours worked out for this picture?
+    int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
+    std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded
+    size_t colors_at_ = 0;                               // of the next thing drawn, in solid_colors_
+    std::unique_ptr<RasterStrands> rastered_;            // what it draws
+    glm::ivec2 rastered_size_{0};                        // of its texture
+    Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
     GLuint frame_block_ = 0, params_block_ = 0;
     GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
     GLint braided_ = 0; // strands that may be
-    GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0;
+    GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0, solid_colors_ = 0, shades_texture_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
     GLuint leader_texture_ = 0, leader_buffer_ = 0, rastered_texture_ = 0;
     int depth_resolution_ = 0; // that the texture has room for

@@ -2,7 +2,7 @@
 #include "app/renderer.h"
 
 #include "app/rasteriser.h"
-#include "app/solids.h"
+#include "app/root_shares.h"
 #include "sim/tied_hair.h"
 #include "sim/wave.h"
 
@@ -63,7 +63,8 @@ void Renderer::upload_mesh(const FrameInput& frame)
     mesh_key_ = key;
     const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
     const std::vector<float> roots = shares_of_roots(assets, p);
-    std::vector<float> vertices;
+    std::vector<float>& vertices = mesh_vertices_;
+    vertices.clear();
     vertices.reserve(assets.head.positions.size() * 7);
     for (size_t i = 0; i < assets.head.positions.size(); ++i)
     {
@@ -226,6 +227,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    light(frame);
     if (params.render_show == 1)
         return;
     if (method_of(params) == BY_OPENCL)
@@ -233,8 +235,8 @@ void Renderer::upload(const FrameInput& frame)
         const Solver& solver = frame.simulation->solver();
         if (!rasteriser_ || rasteriser_->device().context() != solver.device().context())
             rasteriser_ = std::make_unique<Rasteriser>(solver.device());
-        rastered_ = std::make_unique<RasterStrands>(
-            RasterStrands{&solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}, frame.kept});
+        rastered_ = std::make_unique<RasterStrands>(RasterStrands{
+            &solver, params, waves, braid_values(solver.groom()), frame.colors.value, {}, frame.kept, nullptr});
         for (int i = 0; i < RAMP && !rastered_->values.empty(); ++i)
         {
             const glm::vec3 color = ramp_color((float(i) + 0.5f) / float(RAMP));

@@ -30,7 +30,7 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
     const int strand = get_global_id(0);
     if (strand >= frame->strands)
         return;
-    const RibbonLook look = look_of(strand, looks, strands, braids, params, frame);
+    const RibbonLook look = look_of(strand, looks, strands, braids, params, frame->braided);
     StrandNodes n;
     load_strand(&n, drawn_position, drawn_frame, strand);
     const float wider = widening(strand, frame);

@@ -2,16 +2,8 @@
 //
 // First the places themselves, then all that hangs on those beside them. Where a run of pieces begins and ends, what
 // would come next is guessed from the three places there (a parabola), and marked as no point.
-#include "raster_strand.h"
-
 #define ROOM ((NODES - 2) * (MOST_PIECES + 3) + 2 * WIDTH + 2)
-
-typedef struct Places
-{
-    float x[ROOM], y[ROOM], z[ROOM], t[ROOM], open[ROOM];
-    int segment[ROOM];
-    int count;
-} Places;
+#include "strand_places.h"
 
 // All places in their order; where a run begins or ends, `t` is no number.
 static inline void list_places(global const uchar* pieces, int strand, Places* at)
@@ -52,76 +44,6 @@ static inline void list_places(global const uchar* pieces, int strand, Places* a
     }
 }
 
-static inline real pick(const float* values, const int* at, int on)
-{
-    float picked[WIDTH];
-    for (int lane = 0; lane < WIDTH; ++lane)
-        picked[lane] = values[at[lane] + on];
-    return LANES_LOAD(picked);
-}
-
-static inline void place_curve(const StrandNodes* n, const RibbonLook* look, Places* at, int i,
-                               constant HairParams* params, global const float* wave_table)
-{
-    const int* segment = at->segment + i;
-    const real given = LANES_LOAD(at->t + i), t = select((real)(0.0f), given, given == given);
-    const real x0 = pick(n->x, segment, -1), x1 = pick(n->x, segment, 0), x2 = pick(n->x, segment, 1),
-               x3 = pick(n->x, segment, 2);
-    const real y0 = pick(n->y, segment, -1), y1 = pick(n->y, segment, 0), y2 = pick(n->y, segment, 1),
-               y3 = pick(n->y, segment, 2);
-    const real z0 = pick(n->z, segment, -1), z1 = pick(n->z, segment, 0), z2 = pick(n->z, segment, 1),
-               z3 = pick(n->z, segment, 2);
-    const Reals w = curve_weights(params->smoothing_curve, t);
-    real x = w.x * x0 + w.y * x1 + w.z * x2 + w.w * x3;
-    real y = w.x * y0 + w.y * y1 + w.z * y2 + w.w * y3;
-    real z = w.x * z0 + w.y * z1 + w.z * z2 + w.w * z3;
-    real open = (real)(1.0f);
-    const bool waved = has_waves(look->laid);
-    if (waved || look->braid.pitch > 0.0f)
-    {
-        real tx = mix(x2 - x0, x3 - x1, t), ty = mix(y2 - y0, y3 - y1, t), tz = mix(z2 - z0, z3 - z1, t);
-        real shorten = INVERSE_SQRT(fmax(tx * tx + ty * ty + tz * tz, (real)(1e-20f)));
-        tx *= shorten;
-        ty *= shorten;
-        tz *= shorten;
-        real nx = mix(pick(n->normal_x, segment, 0), pick(n->normal_x, segment, 1), t);
-        real ny = mix(pick(n->normal_y, segment, 0), pick(n->normal_y, segment, 1), t);
-        real nz = mix(pick(n->normal_z, segment, 0), pick(n->normal_z, segment, 1), t);
-        const real part = nx * tx + ny * ty + nz * tz;
-        nx -= tx * part;
-        ny -= ty * part;
-        nz -= tz * part;
-        shorten = INVERSE_SQRT(fmax(nx * nx + ny * ny + nz * nz, (real)(1e-20f)));
-        nx *= shorten;
-        ny *= shorten;
-        nz *= shorten;
-        const real bx = ty * nz - tz * ny, by = tz * nx - tx * nz, bz = tx * ny - ty * nx;
-        const whole numbers = LANES_LOAD(segment);
-        const real along = (TO_REAL(numbers - 1) + t) * (1.0f / (float)(NODES - 2));
-        if (waved)
-        {
-            const real distance = mix(pick(n->distance, segment, 0), pick(n->distance, segment, 1), t);
-            const Reals by_waves = laid_across(params, wave_table, look->laid, along, distance);
-            const real share = profile_at(params->wave_along, along);
-            x += share * (nx * by_waves.x + bx * by_waves.y);
-            y += share * (ny * by_waves.x + by * by_waves.y);
-            z += share * (nz * by_waves.x + bz * by_waves.y);
-        }
-        if (look->braid.pitch > 0.0f)
-        {
-            const Reals plaited = braid_at(look->braid, along);
-            x += plaited.x * nx + plaited.y * bx + plaited.z * tx;
-            y += plaited.x * ny + plaited.y * by + plaited.z * ty;
-            z += plaited.x * nz + plaited.y * bz + plaited.z * tz;
-            open = plaited.w;
-        }
-    }
-    LANES_STORE(x, at->x + i);
-    LANES_STORE(y, at->y + i);
-    LANES_STORE(z, at->z + i);
-    LANES_STORE(open, at->open + i);
-}
-
 // What would come beside place i, from there and the one and two places on (`step` -1 or 1).
 static inline void guess(Places* at, int i, int onward)
 {
@@ -133,8 +55,6 @@ static inline void guess(Places* at, int i, int onward)
 }
 
 static inline real clip_of(float4 row, real x, real y, real z) { return row.x * x + row.y * y + row.z * z + row.w; }
-
-static inline bits half_bits(real v) { return TO_HALF(AS_BITS(clamp(v, (real)(0.0f), (real)(65000.0f)) * HALF_SCALE)); }
 
 #ifdef VALUES
 static inline Reals ramp_at(global const float4* ramp, real value)
@@ -158,11 +78,33 @@ static inline Reals ramp_at(global const float4* ramp, real value)
 }
 #endif
 
+#ifdef SHADED
+static inline Reals shaded_at(global const uint2* shaded, whole first, real share)
+{
+    int i[WIDTH];
+    float r[2][WIDTH], g[2][WIDTH], b[2][WIDTH];
+    LANES_STORE(first, i);
+    for (int lane = 0; lane < WIDTH; ++lane)
+        for (int side = 0; side < 2; ++side)
+        {
+            const uint2 color = shaded[i[lane] + side];
+            r[side][lane] = from_half(color.x);
+            g[side][lane] = from_half(color.x >> 16);
+            b[side][lane] = from_half(color.y);
+        }
+    return reals(mix(LANES_LOAD(r[0]), LANES_LOAD(r[1]), share), mix(LANES_LOAD(g[0]), LANES_LOAD(g[1]), share),
+                 mix(LANES_LOAD(b[0]), LANES_LOAD(b[1]), share), share);
+}
+#endif
+
 kernel void raster_points(global const float4* drawn_position, global const float4* drawn_frame,
                           global const StrandLook* looks, global const DrawnStrand* strands,
                           global const float4* braids, global const float* wave_table,
 #ifdef VALUES
                           global const float* values, global const float4* ramp,
+#endif
+#ifdef SHADED
+                          global const uint2* shaded,
 #endif
                           constant HairParams* params, constant RasterFrame* frame, global const uchar* pieces,
                           global const RasterStrand* listed, global float* points)
@@ -170,7 +112,7 @@ kernel void raster_points(global const float4* drawn_position, global const floa
     if ((int)get_global_id(0) >= frame->listed)
         return;
     const RasterStrand own = listed[get_global_id(0)];
-    const RibbonLook look = look_of(own.strand, looks, strands, braids, params, frame);
+    const RibbonLook look = look_of(own.strand, looks, strands, braids, params, frame->braided);
     StrandNodes n;
     load_strand(&n, drawn_position, drawn_frame, own.strand);
     Places at;
@@ -181,9 +123,11 @@ kernel void raster_points(global const float4* drawn_position, global const floa
         if (isnan(at.t[i]))
             guess(&at, i, i + 1 < at.count && !isnan(at.t[i + 1]) ? 1 : -1);
 
-    const float brightness = FIRST_LANE(brightness_of(params, wave_table, look.laid.own));
     const float4 eye = frame->eye, cx = frame->clip_x, cy = frame->clip_y, cw = frame->clip_w;
+#if !defined(VALUES) && !defined(SHADED)
+    const float brightness = FIRST_LANE(brightness_of(params, wave_table, look.laid.own));
     const float4 sun = params->look_light_color, to_light = params->look_light_direction;
+#endif
     const float half_width = 0.5f * (float)frame->width, half_height = 0.5f * (float)frame->height;
     const float wider = widening(own.strand, frame);
 #ifdef VALUES
@@ -215,6 +159,13 @@ kernel void raster_points(global const float4* drawn_position, global const floa
         red = told.x * lit;
         green = told.y * lit;
         blue = told.z * lit;
+#elif defined(SHADED) // SHADED places a segment have been: linear between them
+        const real at_place = (TO_REAL(numbers - 1) + t) * (float)SHADED;
+        const whole place = min(TO_WHOLE(at_place), (whole)((NODES - 2) * SHADED - 1));
+        const Reals told = shaded_at(shaded + own.strand * ((NODES - 2) * SHADED + 1), place, at_place - TO_REAL(place));
+        red = told.x;
+        green = told.y;
+        blue = told.z;
 #else
         const real ex = eye.x - x, ey = eye.y - y, ez = eye.z - z;
         const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));

@@ -16,6 +16,8 @@
 #define LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #endif
 
+static inline bits half_bits(real v) { return TO_HALF(AS_BITS(clamp(v, (real)(0.0f), (real)(65000.0f)) * HALF_SCALE)); }
+
 #define NODE_ROOM (NODES + WIDTH + 2)
 
 // Beyond the last node the last again.
@@ -53,7 +55,7 @@ typedef struct RibbonLook
 } RibbonLook;
 
 static inline RibbonLook look_of(int strand, global const StrandLook* looks, global const DrawnStrand* strands,
-                                 global const float4* braids, constant HairParams* params, constant RasterFrame* frame)
+                                 global const float4* braids, constant HairParams* params, int braided)
 {
     RibbonLook look;
 #ifdef VARIED
@@ -94,7 +96,7 @@ static inline RibbonLook look_of(int strand, global const StrandLook* looks, glo
         }
     }
     look.braid.pitch = 0.0f;
-    if (strand < frame->braided)
+    if (strand < braided)
         look.braid = braid_of(braids[3 * strand], braids[3 * strand + 1], braids[3 * strand + 2]);
     return look;
 }

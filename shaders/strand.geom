@@ -22,6 +22,9 @@ uniform sampler1D wave; // both perpendiculars' waves, sim/wave.cpp
 
 uniform float widening;         // of strands, for those that are left out
 uniform sampler1D ramp;         // colours that tell a value, app/strand_colors.h
+uniform sampler2D shades;       // colours worked out before, strand after strand, in rows: app/renderer_look.cpp
+uniform int shaded_pieces;      // places on a segment that they are of; 0: none are
+uniform int nodes;
 uniform isamplerBuffer leaders; // the strand that leads each strand's clump, where there are clumps
 
 in NodeData {
@@ -92,6 +95,20 @@ vec3 plaited(float t, out float open)
     return by.x * normal + by.y * cross(tangent, normal) + by.z * tangent;
 }
 
+vec3 shade_of(int place)
+{
+    int row = textureSize(shades, 0).x;
+    return texelFetch(shades, ivec2(place % row, place / row), 0).rgb;
+}
+
+vec3 shade_at(int strand, float along)
+{
+    int last = (nodes - 2) * shaded_pieces;
+    float at = clamp(along, 0.0, 1.0) * float(last);
+    int below = min(int(at), last - 1);
+    return mix(shade_of(strand * (last + 1) + below), shade_of(strand * (last + 1) + below + 1), at - float(below));
+}
+
 int pieces(float pixel, Waves laid)
 {
     vec3 bend1 = gl_in[0].gl_Position.xyz - 2.0 * gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz;
@@ -153,7 +170,9 @@ void main()
         vec3 hair = mix(look.root_color, look.tip_color, profile_at(params.look_color_along, along)) * brightness;
         float opacity = look.opacity * profile_at(params.look_opacity_along, along);
         float light = open * mix(node[1].light, node[2].light, t);
-        if (node[1].value < 0.0)
+        if (node[1].value < 0.0 && shaded_pieces > 0)
+            ribbon.color = shade_at(node[1].strand, along);
+        else if (node[1].value < 0.0)
         {
             vec4 fibre = kajiya_kay(dot(tangent, params.look_light_direction.xyz),
                                     dot(tangent, normalize(to_camera)), light);

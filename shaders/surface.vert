@@ -12,10 +12,12 @@
 in vec3 position; // in the thing's own frame, m
 in vec3 normal;
 in float roots; // 1 on the scalp, 0 away from it
+in vec3 color;  // linear, where it is worked out before
 
 uniform vec4 place; // m; w: scale
 uniform vec3 stretch; // m: the half of a sphere that looks this way moves by so much, which makes a capsule
 uniform int on_head;
+uniform int worked_out;
 uniform vec4 albedo; // linear; w: how far the roots tint it
 
 out vec3 lit;
@@ -30,6 +32,12 @@ vec3 turned(vec3 v)
 void main()
 {
     vec3 p = turned(position * place.w + place.xyz + (dot(position, stretch) > 0.0 ? stretch : vec3(0.0)));
+    gl_Position = frame.view_projection * vec4(p, 1.0);
+    if (worked_out == 1)
+    {
+        lit = color;
+        return;
+    }
     vec3 n = normalize(turned(normal));
     vec3 l = params.look_light_direction.xyz, e = normalize(frame.camera_position.xyz - p);
     vec3 h = normalize(l + e + vec3(0.0, 1e-6, 0.0));
@@ -43,5 +51,4 @@ void main()
     vec3 base = mix(albedo.rgb, params.look_root_color.rgb * 0.6, albedo.w * roots);
     vec3 sun = params.look_light_color.rgb * light;
     lit = base * (sky * mix(0.35, 1.0, sqrt(light)) + 0.95 * lambert * sun) + sheen * sun;
-    gl_Position = frame.view_projection * vec4(p, 1.0);
 }

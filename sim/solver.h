@@ -48,6 +48,7 @@ class Solver
     // Hair that has come to rest on a head at rest in still air sleeps: steps and draws cost nothing until something
     // changes.
     bool asleep() const { return asleep_; }
+    long drawings() const { return drawings_; } // that draw() has made anew
     void keep_awake() { changed_ = true; } // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
 
@@ -97,6 +98,7 @@ class Solver
     std::optional<bool> rest_clear_; // of the bodies, none of which moves against the head; none: not looked at yet
     bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
+    long drawings_ = 0;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in
     double watched_ = 0.0; // s that `moved` is the greatest of
     int calm_ = 0;         // looks in a row that found no motion

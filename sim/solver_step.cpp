@@ -271,6 +271,7 @@ void Solver::draw()
     if (drawn_asleep_ && !changed_)
         return;
     drawn_asleep_ = asleep_ && !changed_;
+    ++drawings_;
     // Light, colliders and parameters as they are now, though time may stand still; the density is the last step's.
     StepInfo info = make_step_info(params_, groom_, head_, head_velocity_, {head_, time_, 1.0f / 60.0f},
                                    int(colliders_.size()), true, body_);

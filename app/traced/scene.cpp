@@ -1,6 +1,7 @@
 #include "app/traced/scene.h"
 
-#include "app/solids.h"
+#include "app/renderer_rings.h"
+#include "app/root_shares.h"
 #include "sim/drawn_curve.h"
 #include "sim/hair_color.h"
 
@@ -117,14 +118,16 @@ TracedScene traced_scene(const FrameInput& frame)
     const glm::mat3 turn = glm::transpose(glm::mat3(vec(info.head_row0), vec(info.head_row1), vec(info.head_row2)));
     add_head(scene, frame, params, turn);
     add_obstacles(scene, frame);
-    for (const Band& band : bands_of(frame))
+    for (const Ring& ring : rings_of(frame))
     {
+        const std::vector<float> corners = corners_of(ring.band);
+        const glm::mat3 on = ring.on_head ? turn : glm::mat3(1.0f);
         add_triangles(scene, band_triangles());
-        for (size_t i = 0; i < band.position.size(); ++i)
+        for (size_t i = 0; i < corners.size(); i += 7)
         {
-            scene.position.push_back(band.on_head ? turn * band.position[i] : band.position[i]);
-            scene.normal.push_back(band.on_head ? turn * band.normal[i] : band.normal[i]);
-            scene.albedo.push_back(band.albedo);
+            scene.position.push_back(on * glm::vec3(corners[i], corners[i + 1], corners[i + 2]));
+            scene.normal.push_back(on * glm::vec3(corners[i + 3], corners[i + 4], corners[i + 5]));
+            scene.albedo.push_back(ring.color);
         }
     }
 

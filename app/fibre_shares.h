@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+namespace coif
+{
+
+// Shares of the light that one crossing of a fibre sends on and throws back, averaged over the width of the fibre
+// (Zinke, Yuksel, Weber, Keyser. Dual scattering. 2008, eq. 6 and 12, with the lobes of Chiang et al. 2016).
+struct Crossed
+{
+    double forward, backward;                   // of the light; they add up to 1 where nothing is absorbed
+    double forward_variance, backward_variance; // of sin theta
+};
+
+// `absorption` per radius of the fibre, sine of the light's inclination, roughnesses in (0, 1].
+Crossed crossed(double absorption, double sine, double roughness, double azimuthal, double ior);
+
+// The lobes' widths (Chiang et al. 2016, eq. 7 and 8): the variance of R along the fibre and the scale of the logistic
+// about it, rad.
+double lobe_variance(double roughness);
+double lobe_logistic(double azimuthal);
+
+// Roughness below which nothing is told apart: the lobe would be narrower than numbers are.
+constexpr double kLeastRoughness = 0.02;
+
+// The table that kernels/look_shade.cl reads: SHARE_ROWS rows, even in sqrt(absorption) / (1 + sqrt(absorption)), of
+// SHARE_TERMS coefficients: for each value of Crossed in turn those of 1, (1 - cos theta)^2 and (1 - cos theta)^5.
+std::vector<float> share_table(double roughness, double azimuthal, double ior);
+
+// Such a table's value at an absorption and a sine.
+Crossed from_table(const std::vector<float>& table, double absorption, double sine);
+
+} // namespace coif

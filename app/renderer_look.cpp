@@ -1,0 +1,179 @@
+// The picture's light for the levels above Kajiya-Kay: worked out by app/shading.h, and carried to the driver as
+// colours.
+#include "app/renderer.h"
+
+#include "app/renderer_rings.h"
+#include "app/shading.h"
+#include "sim/error.h"
+#include "sim/tied_hair.h"
+#include "sim/wave.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace coif
+{
+
+static constexpr int kShadesInRow = 4096;
+static constexpr GLuint kColor = 5; // as ShaderProgram binds it
+
+template <typename T> static void append(std::vector<char>& key, const T& value)
+{
+    const char* bytes = reinterpret_cast<const char*>(&value);
+    key.insert(key.end(), bytes, bytes + sizeof value);
+}
+
+static int level_of(const FrameInput& frame) { return frame.params.look_level; }
+
+// As draw_solids() draws them, one thing after the other.
+std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
+{
+    const HairParams p = device_params(frame.params);
+    const StepInfo& info = frame.simulation->solver().info();
+    const auto turned = [&](glm::vec3 v)
+    {
+        const auto by = [&](const float4& row) { return row.x * v.x + row.y * v.y + row.z * v.z; };
+        return glm::vec3(by(info.head_row0), by(info.head_row1), by(info.head_row2));
+    };
+    std::vector<LookSurface> points;
+    const auto add = [&](glm::vec3 at, glm::vec3 n, float gloss, glm::vec3 albedo, float under_skin)
+    {
+        points.push_back(
+            {F4(at.x, at.y, at.z, 1.0f), F4(n.x, n.y, n.z, gloss), F4(albedo.x, albedo.y, albedo.z, under_skin)});
+    };
+    const auto rgb = [](const float4& c) { return glm::vec3(c.x, c.y, c.z); };
+    const auto normalized = [](glm::vec3 n)
+    { return glm::dot(n, n) > 1e-20f ? glm::normalize(n) : glm::vec3(0.0f, 1.0f, 0.0f); };
+    const auto triple = [](const std::vector<float>& from, size_t i)
+    { return glm::vec3(from[i], from[i + 1], from[i + 2]); };
+    for (size_t i = 0; i < mesh_vertices_.size(); i += 7)
+    {
+        const float roots = mesh_vertices_[i + 6];
+        add(turned(triple(mesh_vertices_, i) * p.head_scale), normalized(turned(triple(mesh_vertices_, i + 3))),
+            1.0f - roots, glm::mix(rgb(p.head_color), rgb(p.look_root_color) * 0.6f, p.head_scalp_tint * roots), 1.0f);
+    }
+    const std::vector<Capsule> placed = frame.simulation->solver().placed_colliders();
+    for (size_t k = placed.size() - frame.simulation->style().host.colliders.size(); k < placed.size(); ++k)
+        for (size_t i = 0; i < sphere_vertices_.size(); i += 7)
+        {
+            const glm::vec3 out = triple(sphere_vertices_, i), axis = rgb(placed[k].axis);
+            add(out * placed[k].center.w + rgb(placed[k].center) +
+                    (glm::dot(out, axis) > 0.0f ? axis : glm::vec3(0.0f)),
+                out, 0.0f, glm::vec3(0.30f, 0.34f, 0.40f), 0.0f);
+        }
+    for (const Ring& ring : rings_of(frame))
+    {
+        const std::vector<float> corners = corners_of(ring.band);
+        for (size_t i = 0; i < corners.size(); i += 7)
+        {
+            const glm::vec3 at = triple(corners, i), n = triple(corners, i + 3);
+            add(ring.on_head ? turned(at) : at, normalized(ring.on_head ? turned(n) : n), 0.0f, ring.color, 0.0f);
+        }
+    }
+    return points;
+}
+
+// Follows the light anew where anything but the camera has changed.
+void Renderer::light(const FrameInput& frame)
+{
+    shaded_ = level_of(frame) > LOOK_KAJIYA_KAY && frame.colors.value.empty();
+    if (!shaded_)
+        return;
+    const Solver& solver = frame.simulation->solver();
+    if (!shading_ || shading_->device().context() != solver.device().context())
+    {
+        shading_ = std::make_unique<Shading>(solver.device());
+        lit_by_.clear();
+    }
+    const HairParams params = device_params(frame.params);
+    HairParams of_light = params;
+    of_light.camera_yaw = of_light.camera_pitch = of_light.camera_distance = of_light.camera_fov = 0.0f;
+    of_light.camera_target = F4(0, 0, 0, 0);
+    of_light.camera_aperture = of_light.camera_focus = of_light.camera_shutter = of_light.look_exposure = 0.0f;
+    std::vector<char> key;
+    append(key, of_light);
+    append(key, &solver);
+    append(key, solver.drawings());
+    for (const Sun& sun : frame.lighting.suns)
+        append(key, sun);
+    append(key, frame.lighting.sky);
+    seen_from_.clear();
+    if (key == lit_by_)
+        return;
+    lit_by_.clear(); // what is there is lost if this fails
+    LitScene scene{&solver,
+                   params,
+                   wave_table(frame.params),
+                   braid_values(solver.groom()),
+                   frame.lighting,
+                   glm::vec3(INFINITY),
+                   glm::vec3(-INFINITY)};
+    for (const LookSurface& s : solid_points(frame))
+    {
+        scene.low = glm::min(scene.low, glm::vec3(s.position.x, s.position.y, s.position.z));
+        scene.high = glm::max(scene.high, glm::vec3(s.position.x, s.position.y, s.position.z));
+    }
+    shading_->light(scene);
+    lit_by_ = key;
+}
+
+// Colours as they are seen from the eye, for whatever draws them.
+void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
+{
+    if (!shaded_)
+        return;
+    std::vector<char> from;
+    append(from, eye);
+    append(from, frame.kept);
+    if (from == seen_from_)
+        return;
+    const bool strands = frame.params.render_show != 1;
+    if (strands)
+    {
+        const ShadedStrands& shaded = shading_->shade(eye, level_of(frame), frame.kept);
+        shaded_pieces_ = shaded.pieces;
+        if (method_of(frame.params) == BY_OPENCL)
+            rastered_->shaded = &shaded;
+        else
+            upload_shades();
+    }
+    const std::vector<float4> colors = shading_->lit(solid_points(frame), eye);
+    glBindBuffer(GL_ARRAY_BUFFER, solid_colors_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(colors.size() * sizeof(float4)), colors.data(), GL_STREAM_DRAW);
+    seen_from_ = from;
+}
+
+// For the geometry shader: rows of kShadesInRow colours.
+void Renderer::upload_shades()
+{
+    const LookVolume& volume = shading_->volume();
+    const size_t count = size_t(volume.strands) * size_t(volume.places);
+    const int rows = std::max(1, int((count + kShadesInRow - 1) / kShadesInRow));
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (rows > most || kShadesInRow > most)
+        throw fail("this driver's textures hold too few colours for {} strands; set render.method to opencl",
+                   volume.strands);
+    std::vector<cl_ushort> texels(size_t(rows) * kShadesInRow * 4); // halves: red, green, blue and nothing
+    const Mapped mapped(shading_->device(), shading_->buffers().at("shaded"), std::max<size_t>(count, 1) * 8);
+    std::memcpy(texels.data(), mapped.as<char>(), count * 8);
+    glBindTexture(GL_TEXTURE_2D, shades_texture_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, kShadesInRow, rows, 0, GL_RGBA, GL_HALF_FLOAT, texels.data());
+}
+
+// Points the bound array's colours at those of the next thing that is drawn, which has so many points.
+void Renderer::next_colors(size_t points)
+{
+    if (!shaded_)
+        return glDisableVertexAttribArray(kColor);
+    glBindBuffer(GL_ARRAY_BUFFER, solid_colors_);
+    glEnableVertexAttribArray(kColor);
+    glVertexAttribPointer(kColor, 3, GL_FLOAT, GL_FALSE, sizeof(float4),
+                          reinterpret_cast<const void*>(colors_at_ * sizeof(float4)));
+    colors_at_ += points;
+}
+
+} // namespace coif

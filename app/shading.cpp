@@ -1,0 +1,318 @@
+#include "app/shading.h"
+
+#include "app/fibre_shares.h"
+#include "sim/error.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coif
+{
+
+static constexpr float kLargest = 3.0f; // m from the head's origin: hair further off casts no shadow
+static constexpr int kMostVoxels = 1 << 22, kMostCopies = 8;
+
+Shading::Shading(const Device& device)
+    : passes_(device, fmt::format("-D WIDTH={}", device.width), "following the light")
+{
+}
+
+int shaded_pieces(const HairParams& p, const Groom& groom)
+{
+    const float segment = groom.longest * p.strand_spacing / float(std::max(groom.nodes - 2, 1));
+    const auto waves = [&](float height, float frequency) { return height > 0.0f ? segment * frequency : 0.0f; };
+    float turns = std::max(waves(p.wave_normal_amplitude, p.wave_normal_frequency),
+                           waves(p.wave_binormal_amplitude, p.wave_binormal_frequency));
+    turns = std::max(turns, waves(p.curl_radius, 1.0f / (p.curl_pitch * (1.0f - 0.5f * p.curl_variation))));
+    turns = std::max(turns, waves(p.frizz_amount, 0.5f * p.frizz_frequency));
+    for (const StrandLook& look : groom.looks)
+        turns = std::max({turns, waves(look.wave.x, look.wave.y), waves(look.wave.z, look.wave.w),
+                          waves(look.own.y, 1.0f / (p.curl_pitch * (1.0f - 0.5f * p.curl_variation))),
+                          waves(look.own.z, 0.5f * p.frizz_frequency)});
+    for (const Tail& tail : groom.tails)
+        if (tail.axis.w > 0.0f)
+            turns = std::max(turns, segment / tail.axis.w);
+    const int bent = std::clamp(int(std::ceil(8.0f * turns)), 1, 8);
+    return std::max(bent, groom.nodes <= 24 ? 2 : 1);
+}
+
+LookRay ray_towards(const LookVolume& volume, glm::vec3 direction)
+{
+    const int counts[3] = {volume.x, volume.y, volume.z};
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(direction[i]) > std::abs(direction[axis]))
+            axis = i;
+    const float lean = std::abs(direction[axis]); // at least 1 / sqrt(3)
+    LookRay ray = {};
+    ray.direction = F4(direction.x, direction.y, direction.z, 0.0f);
+    ray.slant =
+        F4(-direction[axis == 0 ? 1 : 0] / lean, -direction[axis == 2 ? 1 : 2] / lean, volume.corner.w / lean, 0.0f);
+    ray.axis = axis;
+    ray.from = direction[axis] > 0.0f ? counts[axis] - 1 : 0;
+    ray.sign = direction[axis] > 0.0f ? -1 : 1;
+    return ray;
+}
+
+// As evenly over the sphere as a spiral can: Gonzalez. Measurement of areas on a sphere using Fibonacci and
+// latitude-longitude lattices. 2010.
+static glm::vec3 sky_direction(int i)
+{
+    const float up = 1.0f - 2.0f * (float(i) + 0.5f) / float(SKY_RAYS), out = std::sqrt(1.0f - up * up);
+    const float turn = float(i) * std::numbers::pi_v<float> * (3.0f - std::sqrt(5.0f));
+    return {out * std::cos(turn), up, out * std::sin(turn)};
+}
+
+// About all hair and what else casts shadows, by steps of an eighth of an octave and of whole voxels, so that it does
+// not crawl as hair moves.
+void Shading::place_volume(const LitScene& scene)
+{
+    const size_t places = size_t(volume_.strands) * size_t(volume_.places);
+    glm::vec3 low = scene.low, high = scene.high;
+    if (glm::any(glm::greaterThan(low, high)))
+        low = glm::vec3(INFINITY), high = glm::vec3(-INFINITY);
+    double covered = 0.0; // m^2: length times width of all pieces
+    {
+        const Mapped mapped(passes_.device, passes_.buffers["places"], places * sizeof(float4));
+        const float4* at = mapped.as<float4>();
+        for (size_t i = 0; i < places; ++i)
+        {
+            const glm::vec3 p(at[i].x, at[i].y, at[i].z);
+            if (!(std::abs(p.x) < kLargest && std::abs(p.y) < kLargest && std::abs(p.z) < kLargest))
+                continue;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+            if (i + 1 < places)
+            {
+                const glm::vec3 way = glm::vec3(at[i + 1].x, at[i + 1].y, at[i + 1].z) - p;
+                const float area = glm::length(way) * std::max(at[i].w, at[i + 1].w);
+                covered += area < kLargest ? double(area) : 0.0; // no number is nothing
+            }
+        }
+    }
+    if (!glm::all(glm::lessThanEqual(low, high)))
+        low = glm::vec3(-0.1f), high = glm::vec3(0.1f);
+    const glm::vec3 size = high - low;
+    const float longest = std::max({size.x, size.y, size.z, 0.02f});
+    float voxel = longest / float(std::max(params_.look_volume - 2, 8));
+    voxel = std::exp2(std::ceil(std::log2(voxel) * 8.0f) / 8.0f);
+    for (;; voxel *= std::exp2(0.125f))
+    {
+        const glm::vec3 corner = glm::floor(low / voxel - 0.5f), end = glm::ceil(high / voxel + 0.5f);
+        volume_.x = (int(end.x - corner.x) + 15) / 16 * 16;
+        volume_.y = std::max(int(end.y - corner.y), 4);
+        volume_.z = std::max(int(end.z - corner.z), 4);
+        volume_.corner = F4(corner.x * voxel, corner.y * voxel, corner.z * voxel, voxel);
+        if (double(volume_.x) * volume_.y * volume_.z <= kMostVoxels)
+            break;
+    }
+    // Though all fibre lay in one voxel, its sum would fit; so would that of each worker.
+    const double most = covered / (double(voxel) * voxel);
+    volume_.unit = float(std::min(double(1 << 30) / std::max(most, 1e-6), 1e9));
+    volume_.copies =
+        passes_.device.is_gpu
+            ? 1
+            : std::clamp(int(passes_.device.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()), 1, kMostCopies);
+    coarse_ = volume_;
+    coarse_.x = ((volume_.x + COARSE - 1) / COARSE + 15) / 16 * 16;
+    coarse_.y = std::max((volume_.y + COARSE - 1) / COARSE, 2);
+    coarse_.z = std::max((volume_.z + COARSE - 1) / COARSE, 2);
+    coarse_.corner.w = voxel * COARSE;
+}
+
+static size_t voxels_of(const LookVolume& v) { return size_t(v.x) * size_t(v.y) * size_t(v.z); }
+
+// Extinction and optical depth along each sun's rays, and along the sky's through coarser voxels.
+void Shading::sweep(const Lighting& lighting)
+{
+    std::vector<LookRay> suns, sky;
+    for (const Sun& sun : lighting.suns)
+    {
+        suns.push_back(ray_towards(volume_, sun.direction));
+        suns.back().direction.w = sun.radius * sun.radius;
+        suns.back().irradiance = F4(sun.irradiance.x, sun.irradiance.y, sun.irradiance.z, 0.0f);
+    }
+    for (int i = 0; i < SKY_RAYS; ++i)
+        sky.push_back(ray_towards(coarse_, sky_direction(i)));
+    suns_ = int(suns.size());
+    const auto follow = [&](const LookVolume& volume, const std::vector<LookRay>& rays)
+    {
+        const size_t all = voxels_of(volume), width = size_t(passes_.device.width);
+        const size_t lanes = all / width, side = size_t(std::max({volume.x, volume.y, volume.z}));
+        passes_.launch("look_extinction", "", cl::NDRange(lanes, rays.size()),
+                       cl::NDRange(lanes % 64 == 0 ? 64 : 1, 1));
+        passes_.launch("look_sweep", "", cl::NDRange((side + width - 1) / width, side, rays.size()),
+                       cl::NDRange(passes_.device.is_gpu ? 8 : 1, 1, 1));
+    };
+    if (suns.empty())
+        suns.push_back(ray_towards(volume_, {0.0f, 1.0f, 0.0f})); // kernels ask for a ray; no sun reads it
+    passes_.fill("rays", suns);
+    passes_.room_for("extinction", voxels_of(volume_) * suns.size() * sizeof(float));
+    passes_.room_for("depth", voxels_of(volume_) * suns.size() * sizeof(float));
+    if (suns_ > 0)
+        follow(volume_, suns);
+
+    const size_t coarse = voxels_of(coarse_);
+    passes_.fill("sky_rays", sky);
+    passes_.room_for("coarse_fibre", coarse * 4 * sizeof(float));
+    passes_.room_for("coarse_extinction", coarse * sky.size() * sizeof(float));
+    passes_.room_for("coarse_depth", coarse * sky.size() * sizeof(float));
+    passes_.room_for("sky", coarse * 16 * sizeof(float));
+    passes_.launch("look_coarse", "", coarse);
+    const auto other = [&] // the sky's buffers under the names of the suns', and back
+    {
+        for (const auto& [name, coarser] :
+             {std::pair("volume", "coarse_volume"), std::pair("rays", "sky_rays"), std::pair("fibre", "coarse_fibre"),
+              std::pair("extinction", "coarse_extinction"), std::pair("depth", "coarse_depth")})
+            std::swap(passes_.buffers[name], passes_.buffers[coarser]);
+    };
+    other();
+    follow(coarse_, sky);
+    other();
+    const size_t width = size_t(passes_.device.width);
+    passes_.launch("look_sky", options_, cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),
+                   cl::NDRange(1, 1, 1));
+}
+
+// The light that the hair hands on in each channel, on the whole: by the mean of its colours.
+static float4 handed_on(const HairParams& params, const Groom& groom, const std::vector<float>& table, double per_log)
+{
+    glm::dvec3 color(0.0);
+    const auto add = [&](const float4& c, double weight) { color += weight * glm::dvec3(c.x, c.y, c.z); };
+    for (const StrandLook& look : groom.looks)
+    {
+        add(look.root_color, 0.5 / double(groom.looks.size()));
+        add(look.tip_color, 0.5 / double(groom.looks.size()));
+    }
+    if (groom.looks.empty())
+    {
+        add(params.look_root_color, 0.5);
+        add(params.look_tip_color, 0.5);
+    }
+    const auto forward = [&](double c)
+    {
+        const double log = std::log(std::clamp(c, 1e-4, 0.9999));
+        return float(from_table(table, log * log * per_log, 0.5).forward);
+    };
+    return F4(forward(color.x), forward(color.y), forward(color.z), 0.0f);
+}
+
+// The square of the inverse of the polynomial of Chiang et al. 2016, eq. 9.
+static double per_log(double n)
+{
+    const double p = 5.969 + n * (-0.215 + n * (2.532 + n * (-10.73 + n * (5.574 + n * 0.245))));
+    return 1.0 / (p * p);
+}
+
+void Shading::light(const LitScene& scene)
+try
+{
+    const Groom& groom = scene.solver->groom();
+    params_ = scene.params;
+    sky_ = scene.lighting.sky;
+    volume_.strands = int(groom.drawn.size());
+    shaded_.pieces = shaded_pieces(params_, groom);
+    volume_.places = (groom.nodes - 2) * shaded_.pieces + 1;
+    braided_ = int(scene.braids.size() / 3);
+    options_ =
+        fmt::format("-D NODES={} -D PIECES={}{}", groom.nodes, shaded_.pieces, groom.looks.empty() ? "" : " -D VARIED");
+    for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands", "info", "colliders"})
+        passes_.buffers[shared] = scene.solver->buffers().at(shared);
+    const std::vector<float> key = {params_.look_roughness, params_.look_azimuthal_roughness, params_.look_ior};
+    if (key != table_key_)
+    {
+        table_ = share_table(key[0], key[1], key[2]);
+        table_key_ = key;
+        passes_.fill("shares", table_);
+    }
+    passes_.fill("params", std::vector<HairParams>(1, params_));
+    passes_.fill("forward",
+                 std::vector<float4>(1, handed_on(params_, groom, table_, per_log(params_.look_azimuthal_roughness))));
+    passes_.fill("wave_table", scene.waves);
+    passes_.fill("braids", scene.braids.empty() ? std::vector<float4>(1, F4(0, 0, 0, 0)) : scene.braids);
+    look_at(glm::vec3(0.0f), 1.0f, 0);
+    passes_.fill("volume", std::vector<LookVolume>(1, volume_));
+    const size_t strands = size_t(volume_.strands);
+    passes_.room_for("places", std::max<size_t>(strands, 1) * size_t(volume_.places) * sizeof(float4));
+    if (strands > 0)
+        passes_.launch("look_places", options_, strands);
+    place_volume(scene);
+    passes_.fill("volume", std::vector<LookVolume>(1, volume_));
+    passes_.fill("coarse_volume", std::vector<LookVolume>(1, coarse_));
+
+    const size_t all = voxels_of(volume_), width = size_t(passes_.device.width);
+    const cl::Buffer& sums = passes_.room_for("fibre_sums", all * size_t(volume_.copies) * sizeof(cl_int4));
+    passes_.room_for("fibre", all * 4 * sizeof(float));
+    if (passes_.device.is_gpu)
+        passes_.device.queue.enqueueFillBuffer(sums, cl_int(0), 0, all * sizeof(cl_int4));
+    passes_.launch("look_density", passes_.device.is_gpu ? "-D ATOMIC" : "",
+                   passes_.device.is_gpu ? strands : size_t(volume_.copies));
+    if (scene.solver->body().grid)
+        passes_.buffers["body_distance"] = scene.solver->buffers().at("body_distance");
+    passes_.launch("look_volume", options_ + (scene.solver->body().grid ? " -D BODY_GRID" : ""),
+                   cl::NDRange(size_t(volume_.x) / width, size_t(volume_.y), size_t(volume_.z)), cl::NDRange(1, 1, 1));
+    sweep(scene.lighting);
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while following the light", e.err(), e.what());
+}
+
+void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces)
+{
+    LookFrame frame = {};
+    frame.eye = F4(eye.x, eye.y, eye.z, kept);
+    frame.sky = F4(sky_.x, sky_.y, sky_.z, 0.0f);
+    const float tilt = params_.look_scale_tilt;
+    frame.tilts[0] = F4(std::sin(tilt), std::cos(tilt), std::sin(2.0f * tilt), std::cos(2.0f * tilt));
+    frame.tilts[1] = F4(std::sin(4.0f * tilt), std::cos(4.0f * tilt), 0.0f, 0.0f);
+    frame.variance = float(lobe_variance(params_.look_roughness));
+    frame.logistic = float(lobe_logistic(params_.look_azimuthal_roughness));
+    frame.ior = params_.look_ior;
+    frame.roughness = std::max(params_.look_roughness, float(kLeastRoughness));
+    frame.per_log = float(per_log(params_.look_azimuthal_roughness));
+    frame.suns = suns_;
+    frame.nodes = params_.look_azimuthal_roughness < 0.25f ? 8 : 4; // narrow lobes band
+    frame.braided = braided_;
+    frame.surfaces = int(surfaces);
+    passes_.fill("look_frame", std::vector<LookFrame>(1, frame));
+}
+
+const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept)
+try
+{
+    const size_t strands = size_t(volume_.strands);
+    look_at(eye, kept, 0);
+    shaded_.colors =
+        passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
+    if (strands > 0)
+        passes_.launch("look_shade", options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY), strands);
+    return shaded_;
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while shading the strands", e.err(), e.what());
+}
+
+std::vector<float4> Shading::lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye)
+try
+{
+    if (surfaces.empty())
+        return {};
+    look_at(eye, 1.0f, surfaces.size());
+    passes_.fill("surfaces", surfaces);
+    passes_.room_for("lit", surfaces.size() * sizeof(float4));
+    const size_t width = size_t(passes_.device.width);
+    passes_.launch("look_surface", options_, (surfaces.size() + width - 1) / width);
+    return read<float4>(passes_.device, passes_.buffers["lit"], surfaces.size());
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while lighting the head", e.err(), e.what());
+}
+
+} // namespace coif

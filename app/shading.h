@@ -1,0 +1,77 @@
+#pragma once
+#include "app/rasteriser.h"
+#include "kernels/look.h"
+#include "sim/lights.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace coif
+{
+
+// look.level
+enum LookLevel
+{
+    LOOK_AUTO,
+    LOOK_KAJIYA_KAY,
+    LOOK_KARIS,
+    LOOK_FAR_FIELD,
+    LOOK_DUAL_SCATTERING
+};
+
+// What there is to be lit. Positions are relative to the head's origin, m.
+struct LitScene
+{
+    const Solver* solver = nullptr; // draws the strands that it has drawn last
+    HairParams params;              // as the device reads them
+    std::vector<float> waves;       // wave_table() of sim/wave.h
+    std::vector<float4> braids;     // braid_values() of sim/tied_hair.h
+    Lighting lighting;
+    glm::vec3 low{0.0f}, high{0.0f}; // of what else casts shadows; low above high: nothing
+};
+
+// Light between the fibres, for the levels above Kajiya-Kay: one volume of fibre, one sweep through it for each sun,
+// the sky, and the colours of the strands and of solid things in them (kernels/look.h). Equal input gives equal bytes
+// on a device.
+class Shading
+{
+  public:
+    explicit Shading(const Device& device);
+
+    // Follows the light of a scene. Throws Error where the device refuses.
+    void light(const LitScene& scene);
+    // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn.
+    const ShadedStrands& shade(glm::vec3 eye, int level, float kept);
+    // Colours of points of solid things, linear, as many as there are points.
+    std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
+
+    const Device& device() const { return passes_.device; }
+    const Buffers& buffers() const { return passes_.buffers; } // for tests: by kernel argument
+    const LookVolume& volume() const { return volume_; }
+    PassTimes take_times() { return passes_.take_times(); }
+
+  private:
+    void place_volume(const LitScene& scene);
+    void sweep(const Lighting& lighting);
+    void look_at(glm::vec3 eye, float kept, size_t surfaces);
+
+    Passes passes_;
+    ShadedStrands shaded_;
+    LookVolume volume_ = {}, coarse_ = {};
+    HairParams params_ = {};
+    glm::vec3 sky_{0.0f};
+    int suns_ = 0, braided_ = 0;
+    std::string options_;          // of the passes that read strands
+    std::vector<float> table_key_; // roughness, azimuthal roughness and index that the table of shares is of
+    std::vector<float> table_;
+};
+
+// Places on a segment that a style's strands are shaded at: enough for what is laid on them.
+int shaded_pieces(const HairParams& device_params, const Groom& groom);
+
+// The ray of a volume towards a direction of unit length.
+LookRay ray_towards(const LookVolume& volume, glm::vec3 direction);
+
+} // namespace coif

@@ -1,0 +1,98 @@
+// Light in the hair, for the levels above Kajiya-Kay: the contract between host and device, and what the passes share.
+// Places are points of the drawn curves, as many on each strand; all positions are relative to the head's origin, m.
+//
+//   look_places      the places, with all that is laid on the strands
+//   look_density     how much fibre there is in each voxel, and which way it runs
+//   look_volume      that, with the bodies that stand in it
+//   look_coarse      the same in voxels three times as wide, for the sky
+//   look_extinction  what each voxel takes away from each ray's light
+//   look_sweep       the optical depth along the rays, away from their light
+//   look_sky         what of the sky is left in each coarse voxel, and where it comes from
+//   look_shade       the colour of each place
+//   look_surface     that of the head and of other solid things
+//
+// Density is summed in integers, so that it does not hang on who comes first.
+#ifndef COIF_LOOK_H
+#define COIF_LOOK_H
+#include "shared.h"
+
+#define SKY_RAYS 26 // directions that the sky is looked at in
+#define COARSE 3    // voxels to a coarse one, each way
+#define MOST_RAYS 32
+#define SHARE_TERMS 12 // floats a row of the table of shares: look_shade.cl
+#define SHARE_ROWS 32
+
+#ifdef __cplusplus
+namespace coif
+{
+#endif
+
+// Voxels along the world's axes.
+typedef struct LookVolume
+{
+    float4 corner; // of the first voxel, m; w: side of a voxel
+    int x, y, z;   // voxels; x is a multiple of 16
+    int rays;      // that light is followed along
+    float unit;    // of a density sum: a metre of fibre, times its width, over the square of the voxel's side
+    int copies;    // of the sums, one for each worker
+    int strands, places;
+} LookVolume;
+
+// A direction that light comes from, and the sweep along it (light_grid.h has the idea): slice after slice of the axis
+// it leans to most.
+typedef struct LookRay
+{
+    float4 direction;  // towards the light; w: variance that the light's own width adds
+    float4 irradiance; // linear
+    float4 slant;      // x, y: voxels sideways from slice to slice; z: m from slice to slice
+    int axis, from, sign, unused;
+} LookRay;
+
+typedef struct LookFrame
+{
+    float4 eye;      // m; w: share of the strands that are drawn
+    float4 sky;      // radiance, linear
+    float4 tilts[2]; // sine and cosine of the tilt and of twice it, of four times it
+    float variance, logistic, ior, roughness; // of a fibre
+    float per_log;                            // absorption_of() of fibre.h
+    int suns, nodes, braided;
+    int surfaces; // points of solid things
+    int unused0, unused1, unused2;
+} LookFrame;
+
+// A point of something solid.
+typedef struct LookSurface
+{
+    float4 position; // m
+    float4 normal;   // w: how glossy, 0 or 1
+    float4 albedo;   // linear; w: how far red light travels under the skin, 0 or 1
+} LookSurface;
+
+#ifdef __cplusplus
+} // namespace coif
+#else
+
+static inline int volume_voxels(constant LookVolume* volume) { return volume->x * volume->y * volume->z; }
+
+// A slice's two axes: u is x unless the sweep runs along it, v is z unless the sweep does. Sizes and strides.
+typedef struct Slices
+{
+    int u, v, count;
+    int stride_u, stride_v, stride;
+} Slices;
+
+static inline Slices slices_of(constant LookVolume* volume, int axis)
+{
+    const int row = volume->x, plane = volume->x * volume->y;
+    Slices s;
+    s.u = axis == 0 ? volume->y : volume->x;
+    s.v = axis == 2 ? volume->y : volume->z;
+    s.count = axis == 0 ? volume->x : axis == 1 ? volume->y : volume->z;
+    s.stride_u = axis == 0 ? row : 1;
+    s.stride_v = axis == 2 ? row : plane;
+    s.stride = axis == 0 ? 1 : axis == 1 ? row : plane;
+    return s;
+}
+
+#endif
+#endif

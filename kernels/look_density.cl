@@ -1,0 +1,71 @@
+// Fibre in the volume: length times width over the square of a voxel's side, and the same times the way it runs, each
+// shared out trilinearly (look.h's LookVolume::unit makes them integers that cannot overflow). Work-item: one of
+// `copies` workers, with its share of the strands and sums of its own; with ATOMIC a strand, and one sum for all.
+#include "look.h"
+
+static inline void add_fibre(global int4* sums, int voxel, float4 value)
+{
+#ifdef ATOMIC
+    const int4 whole_value = convert_int4_rte(value);
+    global int* sum = (global int*)(sums + voxel);
+    atomic_add(sum, whole_value.x);
+    atomic_add(sum + 1, whole_value.y);
+    atomic_add(sum + 2, whole_value.z);
+    atomic_add(sum + 3, whole_value.w);
+#else
+    sums[voxel] += convert_int4_rte(value);
+#endif
+}
+
+static inline void add_piece(global int4* sums, float4 a, float4 b, constant LookVolume* volume)
+{
+    const float inverse = 1.0f / volume->corner.w;
+    const float3 from = (a.xyz - volume->corner.xyz) * inverse - 0.5f, way = (b.xyz - a.xyz) * inverse;
+    const float size = length(way);
+    if (!(size > 1e-9f && size < 1e4f))
+        return;
+    const int steps = (int)size + 1, row = volume->x, plane = volume->x * volume->y;
+    const float share = size / (float)steps * volume->unit * inverse;
+    for (int i = 0; i < steps; ++i)
+    {
+        const float part = ((float)i + 0.5f) / (float)steps;
+        const float3 at = from + way * part, below = floor(at), on = at - below;
+        if (!(below.x >= 0.0f && below.y >= 0.0f && below.z >= 0.0f && below.x < (float)(volume->x - 1) &&
+              below.y < (float)(volume->y - 1) && below.z < (float)(volume->z - 1)))
+            continue;
+        const int voxel = (int)below.x + row * (int)below.y + plane * (int)below.z;
+        const float4 value = (float4)(way / size, 1.0f) * (share * mix(a.w, b.w, part));
+        const float4 near_z = value * (1.0f - on.z), far_z = value * on.z;
+        const float4 near_y = near_z * (1.0f - on.y), far_y = near_z * on.y;
+        const float4 near_yz = far_z * (1.0f - on.y), far_yz = far_z * on.y;
+        add_fibre(sums, voxel, near_y * (1.0f - on.x));
+        add_fibre(sums, voxel + 1, near_y * on.x);
+        add_fibre(sums, voxel + row, far_y * (1.0f - on.x));
+        add_fibre(sums, voxel + row + 1, far_y * on.x);
+        add_fibre(sums, voxel + plane, near_yz * (1.0f - on.x));
+        add_fibre(sums, voxel + plane + 1, near_yz * on.x);
+        add_fibre(sums, voxel + plane + row, far_yz * (1.0f - on.x));
+        add_fibre(sums, voxel + plane + row + 1, far_yz * on.x);
+    }
+}
+
+kernel void look_density(global const float4* places, global int4* fibre_sums, constant LookVolume* volume)
+{
+    const int worker = (int)get_global_id(0);
+#ifdef ATOMIC
+    const int first = worker, end = min(worker + 1, volume->strands);
+    global int4* sums = fibre_sums;
+#else
+    const int first = (int)((long)volume->strands * worker / volume->copies);
+    const int end = (int)((long)volume->strands * (worker + 1) / volume->copies);
+    global int4* sums = fibre_sums + (size_t)worker * (size_t)volume_voxels(volume);
+    for (int i = 0; i < volume_voxels(volume); ++i)
+        sums[i] = (int4)(0);
+#endif
+    for (int strand = first; strand < end; ++strand)
+        for (int i = 0; i + 1 < volume->places; ++i)
+        {
+            const int at = strand * volume->places + i;
+            add_piece(sums, places[at], places[at + 1], volume);
+        }
+}

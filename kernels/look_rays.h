@@ -1,0 +1,101 @@
+// Reads what look_sweep.cl has left: the optical depth between a point of each lane and a light.
+#ifndef COIF_LOOK_RAYS_H
+#define COIF_LOOK_RAYS_H
+#include "drawn_lanes.h"
+#include "look.h"
+
+static inline real ring_lanes(real at, int size) { return at - floor(at / (float)size) * (float)size; }
+
+// Bilinear between the four rays about (u, v) in each lane's slice.
+static inline real depth_in_slice(global const float* depth, LookRay ray, Slices s, real u, real v, whole slice)
+{
+    const real passed = TO_REAL(slice);
+    const real ru = ring_lanes(u - ray.slant.x * passed, s.u), rv = ring_lanes(v - ray.slant.y * passed, s.v);
+    const whole u0 = clamp(TO_WHOLE(ru), (whole)(0), (whole)(s.u - 1));
+    const whole v0 = clamp(TO_WHOLE(rv), (whole)(0), (whole)(s.v - 1));
+    const whole u1 = select((whole)(0), u0 + 1, u0 + 1 < s.u), v1 = select((whole)(0), v0 + 1, v0 + 1 < s.v);
+    const whole row0 = (slice * s.v + v0) * s.u, row1 = (slice * s.v + v1) * s.u;
+    const real across = ru - TO_REAL(u0), along = rv - TO_REAL(v0);
+    const real low = mix(gather(depth, row0 + u0), gather(depth, row0 + u1), across);
+    const real high = mix(gather(depth, row1 + u0), gather(depth, row1 + u1), across);
+    return mix(low, high, along);
+}
+
+// At a point, in voxels from the first one's middle. Outside of the volume nothing is in the way but what lies in it
+// further to the light.
+static inline real depth_to(global const float* depth, LookRay ray, Points p, constant LookVolume* volume)
+{
+    // Forward along the ray to where it comes into the volume.
+    const real last_x = (real)(volume->x - 1) - 1e-3f, last_y = (real)(volume->y - 1) - 1e-3f,
+               last_z = (real)(volume->z - 1) - 1e-3f;
+    const float4 l = ray.direction;
+    const float ix = 1.0f / (fabs(l.x) > 1e-6f ? l.x : 1e-6f), iy = 1.0f / (fabs(l.y) > 1e-6f ? l.y : 1e-6f),
+                iz = 1.0f / (fabs(l.z) > 1e-6f ? l.z : 1e-6f);
+    const real ax = -p.x * ix, bx = (last_x - p.x) * ix, ay = -p.y * iy, by = (last_y - p.y) * iy, az = -p.z * iz,
+               bz = (last_z - p.z) * iz;
+    const real enters = fmax(fmax(fmin(ax, bx), fmin(ay, by)), fmax(fmin(az, bz), (real)(0.0f)));
+    const real leaves = fmin(fmin(fmax(ax, bx), fmax(ay, by)), fmax(az, bz));
+    // Written so that a NaN counts as outside, where no lane may read.
+    const whole meets = (enters <= leaves) & (enters < 1e6f);
+    const real go = select((real)(0.0f), enters, meets);
+    const real gx = fmin(fmax(select((real)(0.0f), p.x + go * l.x, meets), (real)(0.0f)), last_x);
+    const real gy = fmin(fmax(select((real)(0.0f), p.y + go * l.y, meets), (real)(0.0f)), last_y);
+    const real gz = fmin(fmax(select((real)(0.0f), p.z + go * l.z, meets), (real)(0.0f)), last_z);
+
+    const Slices s = slices_of(volume, ray.axis);
+    const real u = ray.axis == 0 ? gy : gx, v = ray.axis == 2 ? gy : gz;
+    const real main = ray.axis == 0 ? gx : ray.axis == 1 ? gy : gz;
+    const real passed = (main - (float)ray.from) * (float)ray.sign;
+    const whole slice = clamp(TO_WHOLE(passed), (whole)(0), (whole)(s.count - 2));
+    const real tau = mix(depth_in_slice(depth, ray, s, u, v, slice), depth_in_slice(depth, ray, s, u, v, slice + 1),
+                         passed - TO_REAL(slice));
+    return select((real)(0.0f), fmax(tau, (real)(0.0f)), meets);
+}
+
+// A point in voxels from the first one's middle, moved by so many voxels along a direction.
+static inline Points in_voxels(Points p, float4 direction, float moved, constant LookVolume* volume)
+{
+    const float4 corner = volume->corner;
+    const float inverse = 1.0f / corner.w;
+    return points((p.x - corner.x) * inverse + (moved * direction.x - 0.5f),
+                  (p.y - corner.y) * inverse + (moved * direction.y - 0.5f),
+                  (p.z - corner.z) * inverse + (moved * direction.z - 0.5f));
+}
+
+// What look_sky.cl has left of a uniform sky, at a point of one lane: for light that comes straight, and for that of each
+// channel with what fibres hand on; from the half of the sky about `way` (unit length) and from the other. `cosine`: the
+// mean of that to `way` over the half, as what is lit there weighs it: 1/2 for all directions alike, 2/3 for a surface.
+typedef struct SkyShares
+{
+    float4 front, behind; // straight, red, green, blue
+} SkyShares;
+
+static inline SkyShares sky_shares(global const float* sky, float x, float y, float z, float4 way, float cosine,
+                                   constant LookVolume* coarse_volume)
+{
+    const float4 corner = coarse_volume->corner;
+    const float inverse = 1.0f / corner.w;
+    const float last_x = (float)(coarse_volume->x - 1) - 1e-3f, last_y = (float)(coarse_volume->y - 1) - 1e-3f,
+                last_z = (float)(coarse_volume->z - 1) - 1e-3f;
+    const float gx = fmin(fmax((x - corner.x) * inverse - 0.5f, 0.0f), last_x);
+    const float gy = fmin(fmax((y - corner.y) * inverse - 0.5f, 0.0f), last_y);
+    const float gz = fmin(fmax((z - corner.z) * inverse - 0.5f, 0.0f), last_z);
+    const int ix = (int)gx, iy = (int)gy, iz = (int)gz;
+    const int row = coarse_volume->x * 16, plane = row * coarse_volume->y;
+    global const float* at = sky + iz * plane + iy * row + ix * 16;
+    const float fx = gx - (float)ix, fy = gy - (float)iy, fz = gz - (float)iz;
+    const float16 low = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
+                            mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    at += plane;
+    const float16 high = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
+                             mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 found = mix(low, high, fz);
+    const float4 whole_sky = found.lo.lo;
+    const float4 lean = cosine * (found.lo.hi * way.x + found.hi.lo * way.y + found.hi.hi * way.z);
+    SkyShares shares;
+    shares.front = clamp(whole_sky + lean, 0.0f, 1.0f);
+    shares.behind = clamp(whole_sky - lean, 0.0f, 1.0f);
+    return shares;
+}
+
+#endif

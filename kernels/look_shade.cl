@@ -1,0 +1,252 @@
+// The colour of each place: what suns and sky bring there, what the fibre makes of it, and what others hand on to it.
+// LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with dual
+// scattering:
+//
+//   L = sum over suns of E [D (F + B(s)) + G (F_G(v) + B(s + v))] + sky      (after Zinke 2008, eq. 23 to 27)
+//   D = exp(-tau): light that comes straight; G: light handed on by fibres, wider by v; F, F_G: the fibre for either;
+//   B: what the fibres behind throw back. fibre.h has each.
+//
+// Work-item: a strand; lanes: places along it. Shares of light that one crossing hands on or throws back (Zinke 2008,
+// eq. 6 and 12) are tables over absorption, for the hair's root, middle and tip; a parabola through them serves the
+// places between.
+#include "look_rays.h"
+#include "raster_strand.h"
+
+#define SELECT(no, yes, test) select(no, yes, test)
+#include "fibre.h"
+
+// Rows of `shares` hold, for each of four values, the coefficients of 1, (1 - cos theta)^2 and (1 - cos theta)^5: what
+// one crossing sends forward and backward, and the variances of either. Rows are even in sqrt(absorption) /
+// (1 + sqrt(absorption)). app/fibre_shares.h
+typedef struct ShareRow
+{
+    float of[SHARE_TERMS];
+} ShareRow;
+
+static inline void find_row(global const float* shares, float absorption, ShareRow* row)
+{
+    const float r = sqrt(fmax(absorption, 0.0f));
+    const float at = fmin(r / (1.0f + r) * (float)(SHARE_ROWS - 1), (float)(SHARE_ROWS - 1) - 1e-3f);
+    const int below = (int)at;
+    const float on = at - (float)below;
+    for (int i = 0; i < SHARE_TERMS; ++i)
+        row->of[i] = mix(shares[below * SHARE_TERMS + i], shares[(below + 1) * SHARE_TERMS + i], on);
+}
+
+// Rows for the root, the middle and the tip, as a parabola in the share of the tip's colour.
+typedef struct ShareCurve
+{
+    float begin[SHARE_TERMS], slope[SHARE_TERMS], bend[SHARE_TERMS];
+} ShareCurve;
+
+static inline void find_curve(global const float* shares, float root, float middle, float tip, ShareCurve* curve)
+{
+    ShareRow rows[3];
+    find_row(shares, root, &rows[0]);
+    find_row(shares, middle, &rows[1]);
+    find_row(shares, tip, &rows[2]);
+    for (int i = 0; i < SHARE_TERMS; ++i)
+    {
+        curve->begin[i] = rows[0].of[i];
+        curve->slope[i] = -3.0f * rows[0].of[i] + 4.0f * rows[1].of[i] - rows[2].of[i];
+        curve->bend[i] = 2.0f * (rows[0].of[i] - 2.0f * rows[1].of[i] + rows[2].of[i]);
+    }
+}
+
+typedef struct Inclined
+{
+    real squared, fifth; // powers of 1 - cos theta
+} Inclined;
+
+static inline Inclined inclined(real cosine)
+{
+    const real g = 1.0f - cosine, g2 = g * g;
+    const Inclined at = {g2, g2 * g2 * g};
+    return at;
+}
+
+static inline real share_at(const ShareCurve* curve, int value, real tip, Inclined at)
+{
+    real p[3];
+    for (int i = 0; i < 3; ++i)
+        p[i] = curve->begin[3 * value + i] + tip * (curve->slope[3 * value + i] + tip * curve->bend[3 * value + i]);
+    return fmin(fmax(p[0] + at.squared * p[1] + at.fifth * p[2], (real)(1e-5f)), (real)(1.0f));
+}
+
+// Of one crossing, in each channel.
+typedef struct Crossing
+{
+    Rgb forward, backward;
+} Crossing;
+
+static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined at)
+{
+    Crossing c;
+    c.forward = rgb(share_at(&curves[0], 0, tip, at), share_at(&curves[1], 0, tip, at), share_at(&curves[2], 0, tip, at));
+    c.backward =
+        rgb(share_at(&curves[0], 1, tip, at), share_at(&curves[1], 1, tip, at), share_at(&curves[2], 1, tip, at));
+    return c;
+}
+
+kernel void look_shade(global const float4* places, global const StrandLook* looks,
+                       global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
+                       constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
+                       constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
+                       global const float* sky, global const float* shares, global uint2* shaded)
+{
+    const int strand = (int)get_global_id(0);
+    if (strand >= volume->strands || STRAND_TURN(strand) >= look_frame->eye.w * (1.0f + FADE))
+        return;
+    const RibbonLook look = look_of(strand, looks, strands, braids, params, look_frame->braided);
+    Fibre fibre;
+    fibre.variance = look_frame->variance;
+    fibre.logistic = look_frame->logistic;
+    fibre.ior = look_frame->ior;
+    fibre.sin_tilt = look_frame->tilts[0].x;
+    fibre.cos_tilt = look_frame->tilts[0].y;
+    fibre.sin_twice_tilt = look_frame->tilts[0].z;
+    fibre.cos_twice_tilt = look_frame->tilts[0].w;
+    fibre.sin_four_tilt = look_frame->tilts[1].x;
+    fibre.cos_four_tilt = look_frame->tilts[1].y;
+
+    // A brighter strand has less pigment: its colour is that of exp(-sqrt(absorption)).
+    const float brightness = FIRST_LANE(brightness_of(params, wave_table, look.laid.own));
+    const float per_log = look_frame->per_log / (brightness * brightness);
+    const float4 root = look.root_color, step_color = look.tip_color - look.root_color;
+    ShareCurve curves[3];
+    const float4 middle = root + 0.5f * step_color, tip_color = look.tip_color;
+    find_curve(shares, FIRST_LANE(absorption_of((real)(root.x), per_log)),
+               FIRST_LANE(absorption_of((real)(middle.x), per_log)),
+               FIRST_LANE(absorption_of((real)(tip_color.x), per_log)), &curves[0]);
+    find_curve(shares, FIRST_LANE(absorption_of((real)(root.y), per_log)),
+               FIRST_LANE(absorption_of((real)(middle.y), per_log)),
+               FIRST_LANE(absorption_of((real)(tip_color.y), per_log)), &curves[1]);
+    find_curve(shares, FIRST_LANE(absorption_of((real)(root.z), per_log)),
+               FIRST_LANE(absorption_of((real)(middle.z), per_log)),
+               FIRST_LANE(absorption_of((real)(tip_color.z), per_log)), &curves[2]);
+
+    const int count = volume->places;
+    global const float4* own = places + (size_t)strand * (size_t)count;
+    const float4 eye = look_frame->eye;
+    const size_t all = (size_t)volume_voxels(volume);
+    for (int i = 0; i < count; i += WIDTH)
+    {
+        float px[WIDTH], py[WIDTH], pz[WIDTH], wx[WIDTH], wy[WIDTH], wz[WIDTH], shares_along[WIDTH];
+        for (int lane = 0; lane < WIDTH; ++lane)
+        {
+            const int k = min(i + lane, count - 1);
+            const float4 p = own[k], way = own[min(k + 1, count - 1)] - own[max(k - 1, 0)];
+            px[lane] = p.x;
+            py[lane] = p.y;
+            pz[lane] = p.z;
+            wx[lane] = way.x;
+            wy[lane] = way.y;
+            wz[lane] = way.z;
+            shares_along[lane] = (float)k / (float)(count - 1);
+        }
+        const Points p = points(LANES_LOAD(px), LANES_LOAD(py), LANES_LOAD(pz));
+        real tx = LANES_LOAD(wx), ty = LANES_LOAD(wy) + 1e-12f, tz = LANES_LOAD(wz);
+        const real shorten = INVERSE_SQRT(fmax(tx * tx + ty * ty + tz * tz, (real)(1e-30f)));
+        tx *= shorten;
+        ty *= shorten;
+        tz *= shorten;
+        real ex = eye.x - p.x, ey = eye.y - p.y, ez = eye.z - p.z;
+        const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
+        ex *= near_eye;
+        ey *= near_eye;
+        ez *= near_eye;
+        const real along_eye = tx * ex + ty * ey + tz * ez;
+        const real along = LANES_LOAD(shares_along);
+        const real tip = profile_at(params->look_color_along, along);
+        const Rgb absorb = rgb(absorption_of(root.x + step_color.x * tip, per_log),
+                               absorption_of(root.y + step_color.y * tip, per_log),
+                               absorption_of(root.z + step_color.z * tip, per_log));
+        real open = (real)(1.0f);
+        if (look.braid.pitch > 0.0f)
+            open = braid_at(look.braid, along).w;
+
+        Rgb sum = rgb((real)(0.0f), (real)(0.0f), (real)(0.0f));
+        for (int k = 0; k < look_frame->suns; ++k)
+        {
+            const LookRay ray = rays[k];
+            const float4 l = ray.direction, e = ray.irradiance;
+            const FibreAngles a = fibre_angles(tx * l.x + ty * l.y + tz * l.z, along_eye, ex * l.x + ey * l.y + ez * l.z);
+            const real tau = depth_to(depth + k * all, ray, in_voxels(p, l, 0.5f, volume), volume);
+            const real straight = open * exp(-tau);
+#if LEVEL == 1
+            const Rgb f = karis(fibre, a, absorb, look_frame->roughness);
+#else
+            Rgb f = far_field(fibre, a, lobe_heights(fibre, a, (real)(l.w)), absorb, look_frame->nodes, false);
+#endif
+#if LEVEL == 3
+            const Inclined at = inclined(a.ci);
+            const Crossing c = crossing_at(curves, tip, at);
+            const real forward_v = share_at(&curves[1], 2, tip, at), backward_v = share_at(&curves[1], 3, tip, at);
+            const real further = forward_v * fibres_crossed(c.forward.g, tau) + l.w;
+            const real back_v = back_variance(c.forward.g, c.backward.g, forward_v, backward_v);
+            const real facing = 0.5f * fmax(a.cos_phi, (real)(0.0f));
+            const real back = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + l.w);
+            const real back_further = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + further);
+            const Rgb g = far_field(fibre, a, lobe_heights(fibre, a, further), absorb, 2, true);
+            const Rgb behind = rgb(back_albedo(c.forward.r, c.backward.r), back_albedo(c.forward.g, c.backward.g),
+                                   back_albedo(c.forward.b, c.backward.b));
+            sum.r += e.x * (straight * (f.r + behind.r * back) +
+                            open * forwarded(c.forward.r, tau) * (g.r + behind.r * back_further));
+            sum.g += e.y * (straight * (f.g + behind.g * back) +
+                            open * forwarded(c.forward.g, tau) * (g.g + behind.g * back_further));
+            sum.b += e.z * (straight * (f.b + behind.b * back) +
+                            open * forwarded(c.forward.b, tau) * (g.b + behind.b * back_further));
+#else
+            sum.r += e.x * straight * f.r;
+            sum.g += e.y * straight * f.g;
+            sum.b += e.z * straight * f.b;
+#endif
+        }
+
+        // The sky, in two halves: what lies before the fibre it throws back, what lies behind it comes through.
+        const real flat = INVERSE_SQRT(fmax(1.0f - along_eye * along_eye, (real)(1e-4f)));
+        float nx[WIDTH], ny[WIDTH], nz[WIDTH], before[4][WIDTH], beyond[4][WIDTH];
+        LANES_STORE((ex - tx * along_eye) * flat, nx);
+        LANES_STORE((ey - ty * along_eye) * flat, ny);
+        LANES_STORE((ez - tz * along_eye) * flat, nz);
+        for (int lane = 0; lane < WIDTH; ++lane)
+        {
+            const SkyShares left = sky_shares(sky, px[lane], py[lane], pz[lane],
+                                              (float4)(nx[lane], ny[lane], nz[lane], 0.0f), 0.5f, coarse_volume);
+            before[0][lane] = left.front.x;
+            before[1][lane] = left.front.y;
+            before[2][lane] = left.front.z;
+            before[3][lane] = left.front.w;
+            beyond[0][lane] = left.behind.x;
+            beyond[1][lane] = left.behind.y;
+            beyond[2][lane] = left.behind.z;
+            beyond[3][lane] = left.behind.w;
+        }
+        const real eye_cosine = sqrt(fmax(1.0f - along_eye * along_eye, (real)(0.0f)));
+        const Crossing c = crossing_at(curves, tip, inclined(eye_cosine));
+        const float4 bright = look_frame->sky;
+        const real beyond_straight = LANES_LOAD(beyond[0]);
+#if LEVEL == 3
+        const real hidden = 1.0f - beyond_straight;
+        sum.r += open * bright.x *
+                 ((c.backward.r + back_albedo(c.forward.r, c.backward.r) * hidden) * LANES_LOAD(before[1]) +
+                  c.forward.r * LANES_LOAD(beyond[1]));
+        sum.g += open * bright.y *
+                 ((c.backward.g + back_albedo(c.forward.g, c.backward.g) * hidden) * LANES_LOAD(before[2]) +
+                  c.forward.g * LANES_LOAD(beyond[2]));
+        sum.b += open * bright.z *
+                 ((c.backward.b + back_albedo(c.forward.b, c.backward.b) * hidden) * LANES_LOAD(before[3]) +
+                  c.forward.b * LANES_LOAD(beyond[3]));
+#else
+        const real before_straight = LANES_LOAD(before[0]);
+        sum.r += open * bright.x * (c.backward.r * before_straight + c.forward.r * beyond_straight);
+        sum.g += open * bright.y * (c.backward.g * before_straight + c.forward.g * beyond_straight);
+        sum.b += open * bright.z * (c.backward.b * before_straight + c.forward.b * beyond_straight);
+#endif
+        uint rg[WIDTH], b[WIDTH];
+        LANES_STORE(half_bits(sum.r) | half_bits(sum.g) << 16, rg);
+        LANES_STORE(half_bits(sum.b), b);
+        for (int lane = 0; lane < min(WIDTH, count - i); ++lane)
+            shaded[(size_t)strand * (size_t)count + (size_t)(i + lane)] = (uint2)(rg[lane], b[lane]);
+    }
+}

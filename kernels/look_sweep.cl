@@ -1,0 +1,88 @@
+// The optical depth along each ray of a bundle, slice after slice away from its light, trapezoidal between slices
+// (Bertails et al. 2005, section 4.2). A ray's slice holds what lies between its voxel's middle and the light:
+// depth[ray of the bundle][slice][v][u], and u and v belong to the ray, which wraps around the volume's sides as
+// light_grid.h says. Work-item: WIDTH rays along u; second: v; third: the bundle.
+#include "lanes.h"
+#include "look.h"
+
+static inline int on_ring(int at, int size)
+{
+    const int rest = at % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+kernel void look_sweep(global const float* extinction, global float* depth, constant LookVolume* volume,
+                       constant LookRay* rays)
+{
+    const LookRay ray = rays[get_global_id(2)];
+    const Slices s = slices_of(volume, ray.axis);
+    const int first = (int)get_global_id(0) * WIDTH, j = (int)get_global_id(1);
+    if (first >= s.u || j >= s.v)
+        return;
+    const size_t all = (size_t)volume_voxels(volume);
+    global const float* taken = extinction + get_global_id(2) * all;
+    global float* found = depth + get_global_id(2) * all;
+
+    real tau = (real)(0.0f), before = (real)(0.0f);
+    int last_u[WIDTH], last_v = j;
+    for (int lane = 0; lane < WIDTH; ++lane)
+        last_u[lane] = first + lane;
+    for (int passed = 0; passed < s.count; ++passed)
+    {
+        global const float* slice = taken + (ray.from + ray.sign * passed) * s.stride;
+        const float shift_u = ray.slant.x * (float)passed, shift_v = ray.slant.y * (float)passed;
+        const int whole_u = convert_int_rtn(shift_u), whole_v = convert_int_rtn(shift_v);
+        const float fu = shift_u - (float)whole_u, fv = shift_v - (float)whole_v;
+        const int u = on_ring(first + whole_u, s.u), v = on_ring(j + whole_v, s.v);
+        // A ray that has just come around starts afresh from outside.
+        const bool fresh = abs(v - last_v) > 1;
+        last_v = v;
+        real corners[4];
+        if (s.stride_u == 1 && u + WIDTH < s.u && v + 1 < s.v && abs(u - last_u[0]) <= 1)
+        {
+            global const float* row = slice + v * s.stride_v + u;
+            corners[0] = LANES_LOAD(row);
+            corners[1] = LANES_LOAD(row + 1);
+            corners[2] = LANES_LOAD(row + s.stride_v);
+            corners[3] = LANES_LOAD(row + s.stride_v + 1);
+            for (int lane = 0; lane < WIDTH; ++lane)
+                last_u[lane] = u + lane;
+            if (fresh)
+                tau = before = (real)(0.0f);
+        }
+        else
+        {
+            float values[4][WIDTH], kept[WIDTH];
+            for (int lane = 0; lane < WIDTH; ++lane)
+            {
+                const int column = on_ring(u + lane, s.u);
+                kept[lane] = fresh || abs(column - last_u[lane]) > 1 ? 0.0f : 1.0f;
+                last_u[lane] = column;
+                for (int corner = 0; corner < 4; ++corner)
+                {
+                    const int at_u = column + (corner & 1), at_v = v + (corner >> 1);
+                    values[corner][lane] =
+                        at_u < s.u && at_v < s.v ? slice[at_v * s.stride_v + at_u * s.stride_u] : 0.0f;
+                }
+            }
+            for (int corner = 0; corner < 4; ++corner)
+                corners[corner] = LANES_LOAD(values[corner]);
+            tau *= LANES_LOAD(kept);
+            before *= LANES_LOAD(kept);
+        }
+        const real here = (1.0f - fv) * ((1.0f - fu) * corners[0] + fu * corners[1]) +
+                          fv * ((1.0f - fu) * corners[2] + fu * corners[3]);
+        tau += (0.5f * ray.slant.z) * (before + here);
+        before = here;
+        global float* to = found + (passed * s.v + j) * s.u + first;
+        if (first + WIDTH <= s.u)
+            LANES_STORE(tau, to);
+        else
+        {
+            float rest[WIDTH];
+            LANES_STORE(tau, rest);
+            for (int lane = 0; first + lane < s.u; ++lane)
+                to[lane] = rest[lane];
+        }
+    }
+}
