@@ -121,7 +121,7 @@ static int run_shot(const Options& options, const ShotOptions& shot, const Seque
     const double turn = sequence.view < 0 ? 0.0 : frames_of(sequence, options.seconds)[0].turn;
     if (traced)
         return shoot_traced(options, shot, *traced, turn);
-    save_png(options.output, take_shot(options, shot, turn));
+    save_shot(options, shot, turn);
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
 }
@@ -216,7 +216,10 @@ static int command(std::vector<std::string> words, bool only_look)
     CLI::App* edit_command = with_device(common(app.add_subcommand("edit", "Open the editor (the default)"), false));
 
     CLI::App* shot_command = with_device(common(app.add_subcommand("shot", "Draw a picture without a window"), true));
-    shot_command->add_option("-o,--output", options.output, "PNG to write; of many pictures also .mp4, .webm or .gif")
+    shot_command
+        ->add_option(
+            "-o,--output", options.output,
+            "PNG to write, or .hdr: light before any display transform; of many pictures also .mp4, .webm or .gif")
         ->required();
     shot_command->add_option("--size", size, "WIDTHxHEIGHT in pixels, up to 8192 each")->capture_default_str();
     const auto with_picture = [&](CLI::App* command)

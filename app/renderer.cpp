@@ -1,5 +1,6 @@
 #include "app/renderer.h"
 
+#include "app/display.h"
 #include "app/rasteriser.h"
 #include "app/shading.h"
 #include "sim/error.h"
@@ -508,7 +509,7 @@ static glm::vec2 jitter_of(int sample)
     return glm::vec2(float(x - std::floor(x) - 0.5), float(y - std::floor(y) - 0.5));
 }
 
-GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
+const Renderer::Target& Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
 {
     const int samples = multisamples(frame.params.render_multisample);
     const bool depth_is_read = method_of(frame.params) == BY_OPENCL;
@@ -516,7 +517,7 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
     prepare(scene_, part.width, part.height, samples, GL_RGBA16F, depth_format);
     if (samples > 0)
         prepare(single_, part.width, part.height, 0, GL_RGBA16F, depth_is_read ? depth_format : 0);
-    const GLuint one_sample = samples > 0 ? single_.texture : scene_.texture;
+    const Target& one_sample = samples > 0 ? single_ : scene_;
     if (frame.samples == 1 && frame.before == 0)
     {
         draw(frame, whole_width, whole_height, part, glm::vec2(0.0f));
@@ -539,25 +540,42 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
         glBlendFunc(GL_ONE, GL_CONSTANT_ALPHA);
         glUseProgram(programs_->add.id());
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, one_sample);
+        glBindTexture(GL_TEXTURE_2D, one_sample.texture);
         glUniform1i(programs_->add.uniform("picture"), 0);
         glUniform1f(programs_->add.uniform("share"), 1.0f / all);
         glBindVertexArray(empty_array_);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDisable(GL_BLEND);
     }
-    return sum_.texture;
+    return sum_;
 }
 
-void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part, int left)
+// Reads what the bound framebuffer holds into its place of the whole picture.
+template <typename Picture> static void put_part(GLenum type, int x, int y, int width, int height, Picture& picture)
 {
+    const auto values = [](int w, int h) { return size_t(4) * size_t(w) * size_t(h); };
+    picture.pixels.resize(values(picture.width, picture.height));
+    decltype(picture.pixels) part(values(width, height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, type, part.data());
+    for (int row = 0; row < height; ++row) // GL's first row is the lowest
+        std::copy_n(&part[values(row, width)], values(1, width),
+                    &picture.pixels[values(picture.height - 1 - y - row, picture.width) + values(x, 1)]);
+}
+
+void Renderer::resolve(const FrameInput& frame, const Target& light, GLuint framebuffer, Part part, int left)
+{
+    const Display display = display_of(frame.params);
+    const ShaderProgram& program = programs_->show;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(left, 0, part.width, part.height);
-    glUseProgram(programs_->show.id());
-    glUniform1i(programs_->show.uniform("left"), left);
+    glUseProgram(program.id());
+    glUniform1i(program.uniform("left"), left);
+    glUniform1f(program.uniform("gain"), display.gain);
+    glUniform1i(program.uniform("display"), display.choice);
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glUniform1i(programs_->show.uniform("picture"), 0);
+    glBindTexture(GL_TEXTURE_2D, light.texture);
+    glUniform1i(program.uniform("picture"), 0);
     glBindVertexArray(empty_array_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -566,34 +584,48 @@ void Renderer::show(const FrameInput& frame, int width, int height, int left)
 {
     upload(frame);
     const Part all = {0, 0, width, height};
-    resolve(accumulate(frame, width, height, all), 0, all, left);
+    resolve(frame, accumulate(frame, width, height, all), 0, all, left);
 }
 
-Image Renderer::picture(const FrameInput& frame, int width, int height)
+void Renderer::draw_parts(const FrameInput& frame, int width, int height, const TakePart& take)
 {
     if (width < 1 || height < 1 || width > 8192 || height > 8192)
         throw fail("a picture of {} x {} pixels cannot be drawn; each side must lie in [1, 8192]", width, height);
     upload(frame);
-    Image image{width, height, std::vector<unsigned char>(size_t(4) * size_t(width) * size_t(height))};
     const int most = 2048; // pixels a side of a tile, which bounds the memory
-    Target bytes;
-    std::vector<unsigned char> pixels;
     for (int y = 0; y < height; y += most)
         for (int x = 0; x < width; x += most)
         {
             const Part part = {x, y, std::min(most, width - x), std::min(most, height - y)};
-            const GLuint texture = accumulate(frame, width, height, part);
-            prepare(bytes, part.width, part.height, 0, GL_RGBA8);
-            resolve(texture, bytes.framebuffer, part);
-            pixels.resize(size_t(4) * size_t(part.width) * size_t(part.height));
-            glPixelStorei(GL_PACK_ALIGNMENT, 1);
-            glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-            for (int row = 0; row < part.height; ++row) // GL's first row is the lowest
-                std::copy_n(&pixels[size_t(4) * size_t(row) * size_t(part.width)], size_t(4) * size_t(part.width),
-                            &image.pixels[size_t(4) * (size_t(height - 1 - y - row) * size_t(width) + size_t(x))]);
+            take(accumulate(frame, width, height, part), part);
         }
+}
+
+Image Renderer::picture(const FrameInput& frame, int width, int height)
+{
+    Image image{width, height, {}};
+    Target bytes;
+    const auto take = [&](const Target& light, Part part)
+    {
+        prepare(bytes, part.width, part.height, 0, GL_RGBA8);
+        resolve(frame, light, bytes.framebuffer, part);
+        put_part(GL_UNSIGNED_BYTE, part.x, part.y, part.width, part.height, image);
+    };
+    draw_parts(frame, width, height, take);
     glDeleteFramebuffers(1, &bytes.framebuffer);
     glDeleteTextures(1, &bytes.texture);
+    return image;
+}
+
+LinearImage Renderer::linear_picture(const FrameInput& frame, int width, int height)
+{
+    LinearImage image{width, height, {}};
+    const auto take = [&](const Target& light, Part part)
+    {
+        glBindFramebuffer(GL_FRAMEBUFFER, light.framebuffer);
+        put_part(GL_FLOAT, part.x, part.y, part.width, part.height, image);
+    };
+    draw_parts(frame, width, height, take);
     return image;
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -74,6 +75,8 @@ class Renderer
     void show(const FrameInput& frame, int width, int height, int left = 0);
     // Draws apart from any window. At most 8192 x 8192; large pictures are put together of tiles.
     Image picture(const FrameInput& frame, int width, int height);
+    // The same picture's light, before exposure and display transform.
+    LinearImage linear_picture(const FrameInput& frame, int width, int height);
 
     // Compiles all shaders anew; throws, and keeps the old ones, when one fails.
     void reload_shaders();
@@ -115,9 +118,12 @@ class Renderer
     void draw_strands(const FrameInput& frame);
     void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
-    // All samples of a part, averaged. Returns the texture that holds them.
-    GLuint accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
-    void resolve(GLuint texture, GLuint framebuffer, Part part, int left = 0);
+    // All samples of a part, averaged. Returns what holds them.
+    const Target& accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
+    // Each part of a picture in turn, drawn.
+    using TakePart = std::function<void(const Target&, Part)>;
+    void draw_parts(const FrameInput& frame, int width, int height, const TakePart& take);
+    void resolve(const FrameInput& frame, const Target& light, GLuint framebuffer, Part part, int left = 0);
     void prepare(Target& target, int width, int height, int samples, GLenum format, GLenum depth_format = 0);
 
     std::filesystem::path shader_folder_;

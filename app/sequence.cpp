@@ -136,11 +136,10 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
     {
         progress.say(fmt::format("picture {} of {}", &frame - frames.data() + 1, frames.size()));
         studio.play_to(frame.seconds);
-        const Image image = studio.picture(frame.turn);
         if (film)
-            film->add(image);
+            film->add(studio.picture(frame.turn));
         else
-            save_png(numbered(pattern, frame.number), image);
+            studio.save(numbered(pattern, frame.number), frame.turn);
     }
     if (film)
         film->finish();

@@ -1,5 +1,6 @@
 #include "app/shot.h"
 
+#include "app/display.h"
 #include "app/progress.h"
 #include "sim/error.h"
 #include "sim/source.h"
@@ -84,16 +85,29 @@ Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double
     return camera;
 }
 
-Image Studio::picture(double turn)
+FrameInput Studio::frame(double turn)
 {
     simulation_.solver().draw();
     FrameInput frame = frame_input(simulation_, shot_camera(simulation_, shot_, turn));
     frame.samples = shot_.samples;
     frame.transparent = shot_.transparent;
-    return renderer_.picture(frame, shot_.width, shot_.height);
+    return frame;
 }
 
-Image take_shot(const Options& options, const ShotOptions& shot, double turn)
+Image Studio::picture(double turn) { return renderer_.picture(frame(turn), shot_.width, shot_.height); }
+
+void Studio::save(const std::filesystem::path& file, double turn)
+{
+    if (!is_linear(file))
+        return save_png(file, picture(turn));
+    const LinearImage light = renderer_.linear_picture(frame(turn), shot_.width, shot_.height);
+    save_hdr(file, light, display_of(simulation_.params()).gain);
+}
+
+bool is_linear(const std::filesystem::path& file) { return file.extension() == ".hdr"; }
+
+// Calls back with a studio that has played the motion.
+template <typename Take> static auto at_its_time(const Options& options, const ShotOptions& shot, const Take& take)
 {
     check_shot(options, shot);
     const Hairstyle style = load_style(options);
@@ -105,7 +119,17 @@ Image take_shot(const Options& options, const ShotOptions& shot, double turn)
     Studio studio(device, style, motion, shot);
     progress.say(style.name() + ": moves");
     studio.play_to(options.seconds);
-    return studio.picture(turn);
+    return take(studio);
+}
+
+Image take_shot(const Options& options, const ShotOptions& shot, double turn)
+{
+    return at_its_time(options, shot, [&](Studio& studio) { return studio.picture(turn); });
+}
+
+void save_shot(const Options& options, const ShotOptions& shot, double turn)
+{
+    at_its_time(options, shot, [&](Studio& studio) { studio.save(options.output, turn); });
 }
 
 } // namespace coif

@@ -37,15 +37,23 @@ class Studio
     void play_to(double seconds) { coif::play_to(simulation_, seconds); }
     // Taken from `turn` (rad) further round the camera's target than the options say.
     Image picture(double turn = 0.0);
+    // The same, written: its bytes as PNG, or where the file is called so its light as .hdr. Throws Error.
+    void save(const std::filesystem::path& file, double turn = 0.0);
 
   private:
+    FrameInput frame(double turn);
+
     ShotOptions shot_;
     Simulation simulation_;
     Renderer renderer_;
 };
 
+// Is it light that is written to a file of this name, rather than the bytes of a picture?
+bool is_linear(const std::filesystem::path& file);
+
 // Plays the motion for the given time without drawing, then draws once, `turn` (rad) further round: the same input
-// gives the same picture.
+// gives the same picture. The second writes it to options.output.
 Image take_shot(const Options& options, const ShotOptions& shot, double turn = 0.0);
+void save_shot(const Options& options, const ShotOptions& shot, double turn = 0.0);
 
 } // namespace coif

@@ -9,12 +9,6 @@
 namespace coif
 {
 
-struct LinearImage
-{
-    int width = 0, height = 0;
-    std::vector<float> pixels; // 4 a pixel
-};
-
 // "bob.png" -> "bob.traced"
 std::filesystem::path record_of(const std::filesystem::path& picture);
 

@@ -30,13 +30,19 @@ static void add_strands(TracedScene& scene, const FrameInput& frame, const HairP
         return;
     const glm::vec3 origin(simulation.solver().head().origin);
     const size_t n = scene.points = curves.count[0];
+    const std::vector<StrandLook>& looks = simulation.solver().groom().looks;
     scene.curve.reserve(curves.strands() * (n + 2));
     scene.absorption = std::move(curves.color);
     for (size_t s = 0; s < curves.strands(); ++s)
     {
         const float bright = std::max(curves.brightness[s], 1e-6f);
+        const double opacity = looks.empty() ? params.look_opacity : looks[s].tip_color.w;
         const auto point = [&](size_t k)
-        { return glm::vec4(curves.position[s * n + k] - origin, std::max(kThinnest, 0.5f * curves.width[s * n + k])); };
+        {
+            const double covers = opacity * profile_at(params.look_opacity_along, double(k) / double(n - 1));
+            const float radius = 0.5f * curves.width[s * n + k] * float(covers);
+            return glm::vec4(curves.position[s * n + k] - origin, std::max(kThinnest, radius));
+        };
         const glm::vec4 first = point(0), last = point(n - 1);
         scene.curve.emplace_back(2.0f * glm::vec3(first) - glm::vec3(point(1)), first.w);
         for (size_t k = 0; k < n; ++k)

@@ -16,7 +16,7 @@ namespace coif
 struct TracedScene
 {
     // Strands as they are drawn, with waves, curls, frizz and braids in their points, each the control point of a
-    // Catmull-Rom curve. Their opacity is left out: a strand is there or it is not.
+    // Catmull-Rom curve. One that is half opaque is half as wide instead, which covers as much.
     size_t points = 0;                 // of a strand, at least 2
     std::vector<glm::vec4> curve;      // [strand][points + 2]: w is the radius; the outer two only bend the ends
     std::vector<glm::vec3> absorption; // [strand][points], per radius

@@ -1,6 +1,8 @@
 #include "app/traced/shoot.h"
 
+#include "app/display.h"
 #include "app/progress.h"
+#include "app/shading.h"
 #include "app/traced/accumulation.h"
 #include "sim/error.h"
 
@@ -62,23 +64,6 @@ static void put_backdrop(LinearImage& image, const HairParams& params)
         }
 }
 
-static Image displayed(const LinearImage& linear, const HairParams&)
-{
-    Image image{linear.width, linear.height, std::vector<unsigned char>(linear.pixels.size())};
-    for (size_t i = 0; i + 3 < linear.pixels.size(); i += 4)
-    {
-        const float alpha = std::clamp(linear.pixels[i + 3], 0.0f, 1.0f);
-        for (size_t c = 0; c < 3; ++c)
-        {
-            const float v = std::clamp(linear.pixels[i + c] / std::max(alpha, 1e-4f), 0.0f, 1.0f);
-            const float shown = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-            image.pixels[i + c] = static_cast<unsigned char>(255.0f * shown + 0.5f);
-        }
-        image.pixels[i + 3] = static_cast<unsigned char>(255.0f * alpha + 0.5f);
-    }
-    return image;
-}
-
 static std::string duration(double seconds)
 {
     return seconds < 90.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
@@ -102,7 +87,8 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     progress.say(style.name() + ": moves");
     play_to(simulation, options.seconds);
     simulation.solver().draw();
-    const HairParams params = simulation.params();
+    HairParams params = simulation.params();
+    params.look_level = LOOK_DUAL_SCATTERING; // shown as the levels that reckon with the strength of light are
     const Tracer tracer(traced_scene(frame_input(simulation, shot_camera(simulation, shot, turn))));
 
     const Hash hash = hash_of(tracer.scene());
@@ -131,7 +117,10 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     LinearImage image = mean_of(picture);
     if (!shot.transparent)
         put_backdrop(image, params);
-    save_png(options.output, displayed(image, params));
+    if (is_linear(options.output))
+        save_hdr(options.output, image, display_of(params).gain);
+    else
+        save_png(options.output, displayed(image, params));
     if (asked_to_stop)
     {
         fmt::print(stderr, "wrote {}, stopped at {} of {} samples; the same command goes on from there\n",
