@@ -78,6 +78,7 @@ struct Tracer::Embree
     bool reaches(const Ray& ray) const;
     glm::dvec3 light_of(Ray ray, Random& random, int bounces, bool& hit) const;
     template <typename Receive> glm::dvec3 from_lights(Random& random, int bounce, const Receive& receive) const;
+    Ray ray_of(int x, int y, int width, int height, Random& random) const;
     glm::vec4 sample(int x, int y, int width, int height, Random random, int bounces) const;
 
     void add_strands();
@@ -351,7 +352,8 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
     return light;
 }
 
-glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random random, int bounces) const
+// Through anywhere in a pixel, and anywhere in the lens.
+Ray Tracer::Embree::ray_of(int x, int y, int width, int height, Random& random) const
 {
     const double pixel = 2.0 * of.tangent / height; // at a distance of one
     const double right = (x + random() - 0.5 * width) * pixel, up = (0.5 * height - y - random()) * pixel;
@@ -363,7 +365,13 @@ glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random ran
         ray.from += radius * (std::cos(turn) * of.right + std::sin(turn) * of.up);
         ray.way = glm::normalize(sharp - ray.from);
     }
+    return ray;
+}
+
+glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random random, int bounces) const
+{
     bool hit = false;
+    const Ray ray = ray_of(x, y, width, height, random);
     const glm::dvec3 light = light_of(ray, random, bounces, hit);
     if (!std::isfinite(light.x + light.y + light.z))
         return glm::vec4(0.0f);
@@ -376,6 +384,22 @@ Tracer::Tracer(TracedScene scene) : embree_(std::make_unique<Embree>(std::move(s
 }
 Tracer::~Tracer() = default;
 const TracedScene& Tracer::scene() const { return embree_->of; }
+
+std::vector<float> Tracer::hair(int width, int height, int samples) const
+{
+    std::vector<float> share(size_t(width) * size_t(height), 0.0f);
+    Random random{0};
+    for (size_t pixel = 0; pixel < share.size(); ++pixel)
+        for (int s = 0; s < samples; ++s)
+        {
+            const Ray ray =
+                embree_->ray_of(int(pixel % size_t(width)), int(pixel / size_t(width)), width, height, random);
+            const unsigned met = embree_->meet(ray).hit.geomID;
+            if (met != RTC_INVALID_GEOMETRY_ID && met == embree_->strands_id)
+                share[pixel] += 1.0f / float(samples);
+        }
+    return share;
+}
 
 static uint64_t mixed(uint64_t a, uint64_t b) { return Random{a ^ b * 0xd1342543de82ef95u}.bits(); }
 
