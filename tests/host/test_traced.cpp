@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -133,6 +134,51 @@ TEST(Traced, hair_shades_the_wall)
     TraceLimits direct;
     direct.bounces = 0;
     EXPECT_EQ(sum_of(traced(scene, 2, direct)).x, 0.0);
+}
+
+// Mean light of one thick strand along x, row by row from its upper edge down, lit from `around` it: 0 is the eye's
+// side, a quarter turn above it.
+std::vector<double> profile_of(glm::vec3 absorption, double around)
+{
+    TracedScene scene = empty_scene();
+    scene.points = 2;
+    for (int k = 0; k < 4; ++k)
+        scene.curve.emplace_back(4.0f * (float(k) - 1.5f), 0.0f, 0.0f, 0.1f); // as high as the picture
+    scene.absorption.assign(2, absorption);
+    scene.fibre = {0.3, 0.05, 0.0, 1.55};
+    scene.lighting.suns = {{glm::vec3(0.0, std::sin(around), std::cos(around)), glm::vec3(1.0f), 0.0f}};
+    TraceLimits direct;
+    direct.bounces = 0;
+    const Accumulation picture = traced(scene, 16, direct);
+    std::vector<double> rows;
+    for (int y = 0; y < kHeight; ++y)
+        rows.push_back(picture.sum[size_t(y * kWidth + kWidth / 2)].y / 16.0);
+    return rows;
+}
+
+TEST(Traced, a_strand_mirrors_light_where_it_faces_halfway_to_it)
+{
+    const double sixty = std::numbers::pi / 3.0;
+    for (const double up : {1.0, -1.0})
+    {
+        const std::vector<double> rows = profile_of(glm::vec3(1e6f), up * sixty);
+        const auto peak = std::ranges::max_element(rows) - rows.begin();
+        // At the sine of 30 degrees from the middle, over the perspective's little.
+        EXPECT_NEAR(1.0 - 2.0 * (double(peak) + 0.5) / kHeight, up * 0.5, 0.1);
+    }
+}
+
+TEST(Traced, a_strand_is_a_lens)
+{
+    // What enters above the middle is bent down: with light from behind and below, the upper half shines.
+    const std::vector<double> rows = profile_of(glm::vec3(0.0f), -std::numbers::pi * 150.0 / 180.0);
+    double above = 0.0, below = 0.0;
+    for (int y = 0; y < kHeight / 2; ++y)
+    {
+        above += rows[size_t(y)];
+        below += rows[size_t(kHeight - 1 - y)];
+    }
+    EXPECT_GT(above, 5.0 * below);
 }
 
 TEST(Traced, neither_threads_nor_stops_change_a_bit)
