@@ -80,15 +80,10 @@ TEST(Traced, white_hair_in_a_white_sky_is_as_bright_as_the_sky)
     TracedScene scene = tangle(300, 0.001f, glm::vec3(0.0f));
     scene.lighting.sky = glm::vec3(0.7f);
     scene.fibre.tilt = 0.035;
-    for (const bool guided : {false, true})
-    {
-        if (guided) // a sun that brings nothing to speak of, but that bounces go to
-            scene.lighting.suns = {{glm::normalize(glm::vec3(1, 1, -1)), glm::vec3(1e-9f), 0.0f}};
-        const glm::dvec4 sum = sum_of(traced(scene, 64));
-        EXPECT_GT(sum.w, 2000.0) << "samples that meet hair";
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(sum[c] / sum.w, 0.7, 0.014);
-    }
+    const glm::dvec4 sum = sum_of(traced(scene, 32));
+    EXPECT_GT(sum.w, 1000.0) << "samples that meet hair";
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sum[c] / sum.w, 0.7, 0.007);
 }
 
 TEST(Traced, pigment_darkens_hair_channel_by_channel)
