@@ -347,7 +347,8 @@ void Editor::advance(double seconds)
         stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
     if (beside_.simulation)
         follow();
-    if (played && !simulation_->playing() && held_.what != Grab::BRUSH && held_.what != Grab::CUT)
+    if (played && !simulation_->playing() && held_.what != Grab::BRUSH && held_.what != Grab::CUT &&
+        held_.what != Grab::LIGHT)
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
         hand_ = simulation_->hand();
@@ -413,8 +414,8 @@ bool Editor::frame()
         ImGui::GetIO().MousePos = ImVec2(float(x), float(y));
     }
     ImGui::NewFrame();
-    draw_ui();                                                 // may change the style, which shows in this very frame
-    if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE) // a drag is one edit
+    draw_ui(); // may change the style, which shows in this very frame
+    if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE && !brightened_) // a drag is one edit
         note_edit(history_, style_, saved_);
     ImGui::Render();
 

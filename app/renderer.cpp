@@ -79,7 +79,7 @@ FrameInput frame_input(const Simulation& simulation, const Camera& camera)
     frame.guide_positions = solver.guide_positions();
     frame.optical_depth = solver.optical_depth();
     frame.params = simulation.params();
-    frame.lighting = lighting_of(simulation.params(), simulation.style().host);
+    frame.lighting = simulation.lighting();
     frame.camera = camera;
     frame.colors = strand_colors(simulation, frame.drawn_positions, frame.guide_positions);
     return frame;

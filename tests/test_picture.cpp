@@ -198,6 +198,33 @@ TEST_F(Picture, TheSideThatFacesTheLightIsBright)
     EXPECT_GT(right[false], left[false] + 5.0);
 }
 
+TEST_F(Picture, LightsOfAListOrAFileComeFromWhereTheyAre)
+{
+    const Image plain = picture(small_style());
+    double left[2], right[2];
+    for (const bool from_left : {false, true})
+    {
+        Hairstyle style = small_style();
+        style.host.lights = {Light{"weak", {0, 1, 0}, {1, 1, 1}, 0.1f},
+                             Light{"strong", {from_left ? -1.0f : 1.0f, 0.3f, 0.3f}, {1, 1, 1}, 5.0f}};
+        const FrameInput frame = frame_of(style);
+        EXPECT_EQ(frame.lighting.suns.size(), 2u);
+        const Image image = renderer->picture(frame, 320, 180);
+        left[from_left] = brightness(image, 110, 150, 20, 160);
+        right[from_left] = brightness(image, 170, 210, 20, 160);
+    }
+    EXPECT_GT(left[true], right[true] + 5.0);
+    EXPECT_GT(right[false], left[false] + 5.0);
+
+    const double lit = brightness(plain);
+    const FrameInput rim = frame_of(small_style({"look.lights=rim.toml"}));
+    EXPECT_EQ(rim.lighting.suns.size(), 2u);
+    EXPECT_LT(brightness(renderer->picture(rim, 320, 180)), lit - 2.0) << "lit from behind";
+    const FrameInput again = frame_of(small_style());
+    EXPECT_EQ(again.lighting.suns.size(), 1u);
+    EXPECT_EQ(renderer->picture(again, 320, 180).pixels, plain.pixels) << "and without the file as ever";
+}
+
 // Dark hair before a dark backdrop, as most is, has little light to lose and hides little.
 Hairstyle white_style(const char* set)
 {
