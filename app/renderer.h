@@ -82,6 +82,8 @@ class Renderer
     void reload_shaders();
     // What the driver calls itself.
     std::string name() const;
+    int level() const { return level_; }                   // of look.level, that it has drawn with last; 0: none
+    Shading* shading() { return shading_.get(); }          // none before it has drawn so
     Rasteriser* rasteriser() { return rasteriser_.get(); } // none before it has drawn
     // What draws the strands where that is left to a rule: the geometry shader where there is a graphics card for it.
     static Method method_of(const HairParams& params);
@@ -112,6 +114,7 @@ class Renderer
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame);
+    void choose_level(const FrameInput& frame, const HairParams& of_light);
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
@@ -128,9 +131,11 @@ class Renderer
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Rasteriser> rasteriser_;             // none until it is asked for
-    std::unique_ptr<Shading> shading_;                   // none until a level asks for it
-    std::vector<char> lit_by_, seen_from_;               // what it has worked out last
+    std::unique_ptr<Rasteriser> rasteriser_; // none until it is asked for
+    std::unique_ptr<Shading> shading_;       // none until a level asks for it
+    std::vector<char> lit_by_, seen_from_;   // what it has worked out last
+    std::vector<char> chosen_by_;
+    int level_ = 0;                                      // of look.level, that is drawn with
     bool shaded_ = false;                                // are colours worked out for this picture?
     int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
     std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded
