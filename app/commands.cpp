@@ -320,6 +320,9 @@ static int command(std::vector<std::string> words, bool only_look)
                               "Fewer points: under a minute instead of a quarter of an hour");
     measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
         ->delimiter(',');
+    measure_command->add_flag_callback(
+        "--look", [&] { measured.only.emplace_back("look"); },
+        "Only the levels of the look against traced light, as --only look");
     with_processes(measure_command, "Scenes measured at a time, each by a process of its own; only with --untimed");
     measure_command->add_flag("--untimed", measured.untimed, "No prices in it, so that equal work gives equal bytes");
     measure_command->add_option(

@@ -51,9 +51,9 @@ typedef struct LookRay
 
 typedef struct LookFrame
 {
-    float4 eye;      // m; w: share of the strands that are drawn
-    float4 sky;      // radiance, linear
-    float4 tilts[2]; // sine and cosine of the tilt and of twice it, of four times it
+    float4 eye;                               // m; w: share of the strands that are drawn
+    float4 sky;                               // radiance, linear
+    float4 tilts[2];                          // sine and cosine of the tilt and of twice it, of four times it
     float variance, logistic, ior, roughness; // of a fibre
     float per_log;                            // absorption_of() of fibre.h
     int suns, nodes, braided;

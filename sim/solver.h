@@ -49,7 +49,7 @@ class Solver
     // changes.
     bool asleep() const { return asleep_; }
     long drawings() const { return drawings_; } // that draw() has made anew
-    void keep_awake() { changed_ = true; } // for the next step and draw
+    void keep_awake() { changed_ = true; }      // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
 
     // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.

@@ -53,6 +53,43 @@ TEST_F(Commands, lights_are_shared_by_name)
     EXPECT_FALSE(fs::exists(folder / "none.png"));
 }
 
+TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
+{
+    const std::string shot = "shot small.toml --size 64x48 --time 0 ";
+    const Result first = coif(shot + "-o a.png --traced 2"), more = coif(shot + "-o a.png --traced 5");
+    ASSERT_EQ(first.status, 0) << first.err;
+    ASSERT_EQ(more.status, 0) << more.err;
+    EXPECT_NE(more.err.find("goes on from 2 samples"), std::string::npos) << more.err;
+    ASSERT_EQ(coif(shot + "-o b.png --traced 5").status, 0);
+    EXPECT_EQ(contents("a.png"), contents("b.png"));
+    EXPECT_EQ(contents("a.traced"), contents("b.traced"));
+
+    const Result other = coif(shot + "-o a.png --traced 1 --set look.roughness=0.5");
+    EXPECT_EQ(other.status, 0);
+    EXPECT_NE(other.err.find("starts anew"), std::string::npos) << other.err;
+    ASSERT_EQ(coif(shot + "-o t.png --traced 1 --transparent").status, 0);
+    const Image image = load_png(folder / "t.png");
+    EXPECT_EQ(image.pixels[3], 0) << "in the corner";
+    EXPECT_EQ(image.pixels[size_t(4) * (24 * 64 + 32) + 3], 255) << "the head is in the middle";
+}
+
+TEST_F(Commands, a_traced_still_refuses_what_makes_no_sense)
+{
+    for (const char* number : {"0", "-3", "70000"})
+    {
+        const Result result = coif(std::string("shot small.toml -o x.png --traced ") + number);
+        EXPECT_EQ(result.status, 1) << number;
+        EXPECT_NE(result.err.find("expected 1 to 65536"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced many").status, 2);
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4 --frames 0:3").status, 2);
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4 --turntable 3").status, 1);
+    write("x.traced", "my novel");
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4").status, 1);
+    EXPECT_EQ(contents("x.traced"), "my novel");
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
 TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout)
 {
     const Result result = coif("report small.toml --motion drag --seconds 0.5 --json");

@@ -137,15 +137,6 @@ glm::dvec3 scatter_lobe(const FibreNear& fibre, int lobe, double sin_o, double s
     return attenuation(fibre, way, sin_o)[size_t(lobe)] * spread(fibre, way, lobe, sin_o, sin_i, phi);
 }
 
-namespace
-{
-struct Scattered
-{
-    glm::dvec3 light{0.0};
-    double pdf = 0.0;
-};
-} // namespace
-
 // Each lobe's share of the samples: that of the light in it, over all channels.
 static std::array<double, kLobes> shares_of(const std::array<glm::dvec3, kLobes>& a)
 {
@@ -158,12 +149,12 @@ static std::array<double, kLobes> shares_of(const std::array<glm::dvec3, kLobes>
     return shares;
 }
 
-static Scattered scattered(const FibreNear& fibre, const Refracted& way, const std::array<glm::dvec3, kLobes>& a,
-                           double sin_o, double sin_i, double phi)
+static ScatterDensity scattered(const FibreNear& fibre, const Refracted& way, const std::array<glm::dvec3, kLobes>& a,
+                                double sin_o, double sin_i, double phi)
 {
     const std::array<double, kLobes> shares = shares_of(a), variances = longitudinal_variances(fibre.look.roughness);
     const double scale = azimuthal_scale(fibre.look.azimuthal), cos_o = cosine_of(sin_o), cos_i = cosine_of(sin_i);
-    Scattered sum;
+    ScatterDensity sum;
     for (int p = 0; p < kLobes; ++p)
     {
         const auto [sin_tilted, cos_tilted] = tilted(p, sin_o, cos_o, fibre.look.tilt);
@@ -177,14 +168,13 @@ static Scattered scattered(const FibreNear& fibre, const Refracted& way, const s
 
 glm::dvec3 scatter(const FibreNear& fibre, double sin_o, double sin_i, double phi)
 {
-    const Refracted way = refracted(fibre, sin_o);
-    return scattered(fibre, way, attenuation(fibre, way, sin_o), sin_o, sin_i, phi).light;
+    return scatter_and_density(fibre, sin_o, sin_i, phi).light;
 }
 
-double sample_pdf(const FibreNear& fibre, double sin_o, double sin_i, double phi)
+ScatterDensity scatter_and_density(const FibreNear& fibre, double sin_o, double sin_i, double phi)
 {
     const Refracted way = refracted(fibre, sin_o);
-    return scattered(fibre, way, attenuation(fibre, way, sin_o), sin_o, sin_i, phi).pdf;
+    return scattered(fibre, way, attenuation(fibre, way, sin_o), sin_o, sin_i, phi);
 }
 
 FibreSample sample(const FibreNear& fibre, double sin_o, const std::array<double, 4>& random)
@@ -213,7 +203,7 @@ FibreSample sample(const FibreNear& fibre, double sin_o, const std::array<double
         const double away = std::clamp(-scale * std::log(1.0 / share - 1.0), -kPi, kPi);
         found.phi = 2.0 * lobe * way.gamma_t - 2.0 * way.gamma_o + lobe * kPi + away;
     }
-    const Scattered there = scattered(fibre, way, a, sin_o, found.sin_i, found.phi);
+    const ScatterDensity there = scattered(fibre, way, a, sin_o, found.sin_i, found.phi);
     found.pdf = there.pdf;
     if (there.pdf > 0.0)
         found.weight = there.light / there.pdf;

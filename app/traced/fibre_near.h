@@ -67,6 +67,13 @@ struct FibreSample
     double pdf = 0.0;       // per steradian; 0: no light
 };
 FibreSample sample(const FibreNear& fibre, double sin_o, const std::array<double, 4>& random);
-double sample_pdf(const FibreNear& fibre, double sin_o, double sin_i, double phi);
+
+// scatter(), and the density per steradian with which sample() would choose that way.
+struct ScatterDensity
+{
+    glm::dvec3 light{0.0};
+    double pdf = 0.0;
+};
+ScatterDensity scatter_and_density(const FibreNear& fibre, double sin_o, double sin_i, double phi);
 
 } // namespace coif

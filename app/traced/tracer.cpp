@@ -28,6 +28,7 @@ static constexpr float kOff = 2e-5f;    // m that rays begin off a solid, so tha
 static constexpr int kAllLights = 2;    // bounces up to which each light is asked; later one, by chance
 static constexpr int kSafe = 3;         // bounces that no path is ended before, by chance
 static constexpr double kTrifle = 1e-6; // of its light that a path is ended with
+static constexpr double kGuided = 0.3;  // of the bounces, towards the suns
 static constexpr uint32_t kAtOnce = 64; // samples of a pixel, at most: a stop waits for the end of a row
 
 uint32_t Accumulation::fewest() const { return samples.empty() ? 0 : *std::ranges::min_element(samples); }
@@ -70,6 +71,7 @@ struct Tracer::Embree
     unsigned strands_id = RTC_INVALID_GEOMETRY_ID, solids_id = RTC_INVALID_GEOMETRY_ID;
     std::vector<double> light_share; // of each sun among all, up to it: what one is chosen by
     std::vector<double> light_chance;
+    double guided = 0.0, sharpness = 1.0; // share of bounces that go towards the suns, and how closely, 1/rad^2
 
     explicit Embree(TracedScene scene);
     ~Embree();
@@ -78,6 +80,9 @@ struct Tracer::Embree
     bool reaches(const Ray& ray) const;
     glm::dvec3 light_of(Ray ray, Random& random, int bounces, bool& hit) const;
     template <typename Receive> glm::dvec3 from_lights(Random& random, int bounce, const Receive& receive) const;
+    Ray ray_of(int x, int y, int width, int height, Random& random) const;
+    glm::dvec3 way_to_a_sun(Random& random) const;
+    double density_of_suns(const glm::dvec3& way) const;
     glm::vec4 sample(int x, int y, int width, int height, Random random, int bounces) const;
 
     void add_strands();
@@ -148,6 +153,10 @@ Tracer::Embree::Embree(TracedScene traced) : of(std::move(traced)), device(rtcNe
         light_share[i] /= sum;
         light_chance[i] /= sum;
     }
+    // As wide as light is spread that has come straight through a fibre.
+    const double scale = azimuthal_scale(of.fibre.azimuthal), along = longitudinal_variances(of.fibre.roughness)[1];
+    sharpness = std::clamp(1.4 / (along + scale * scale * kPi * kPi / 3.0), 2.0, 200.0);
+    guided = sum > 0.0 ? kGuided : 0.0;
 }
 
 Tracer::Embree::~Embree()
@@ -240,6 +249,34 @@ glm::dvec3 Tracer::Embree::from_lights(Random& random, int bounce, const Receive
     return sum;
 }
 
+// Most of the sun's light in hair has come straight through the fibre before: a path that by chance looks at a fibre
+// with the sun behind it finds a glare, and few do. So some go there on purpose, by a von Mises-Fisher distribution
+// about a sun (Fisher 1953; Vorba, Karlik, Sik, Ritschel, Krivanek. On-line learning of parametric mixture models for
+// light transport simulation. 2014), and what either way of choosing would have found is weighed by the density of both
+// (Veach, Guibas 1995).
+glm::dvec3 Tracer::Embree::way_to_a_sun(Random& random) const
+{
+    const double chosen = random();
+    size_t i = 0;
+    while (i + 1 < light_share.size() && chosen >= light_share[i])
+        ++i;
+    const double u = 1.0 - random();
+    const double cosine = std::clamp(1.0 + std::log(u + (1.0 - u) * std::exp(-2.0 * sharpness)) / sharpness, -1.0, 1.0);
+    const double sine = std::sqrt(1.0 - cosine * cosine), turn = 2.0 * kPi * random();
+    const glm::dvec3 sun(of.lighting.suns[i].direction);
+    glm::dvec3 x, y;
+    frame_of(sun, x, y);
+    return glm::normalize(cosine * sun + sine * (std::cos(turn) * x + std::sin(turn) * y));
+}
+
+double Tracer::Embree::density_of_suns(const glm::dvec3& way) const
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < light_chance.size(); ++i)
+        sum += light_chance[i] * std::exp(sharpness * (glm::dot(way, glm::dvec3(of.lighting.suns[i].direction)) - 1.0));
+    return sum * sharpness / (2.0 * kPi * -std::expm1(-2.0 * sharpness));
+}
+
 // Radiance that comes back along a ray. `hit`: it meets something.
 glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& hit) const
 {
@@ -280,14 +317,22 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
                                                  return glm::dvec3(0.0);
                                              return albedo * (cosine / kPi);
                                          });
-            glm::dvec3 x, y;
-            frame_of(normal, x, y);
-            const double across = random(), turn = 2.0 * kPi * random();
-            ray = {at, glm::normalize(std::sqrt(1.0 - across) * normal +
-                                      std::sqrt(across) * (std::cos(turn) * x + std::sin(turn) * y))};
-            share *= albedo;
-            if (!(glm::dot(ray.way, surface) > 0.0))
-                break; // into the solid, which only the smooth normal looks along
+            glm::dvec3 way, x, y;
+            if (guided > 0.0 && random() < guided)
+                way = way_to_a_sun(random);
+            else
+            {
+                frame_of(normal, x, y);
+                const double across = random(), turn = 2.0 * kPi * random();
+                way = glm::normalize(std::sqrt(1.0 - across) * normal +
+                                     std::sqrt(across) * (std::cos(turn) * x + std::sin(turn) * y));
+            }
+            const double cosine = glm::dot(normal, way);
+            if (!(cosine > 0.0 && glm::dot(way, surface) > 0.0))
+                break; // into the solid
+            const double pdf = (1.0 - guided) * cosine / kPi + (guided > 0.0 ? guided * density_of_suns(way) : 0.0);
+            share *= albedo * (cosine / kPi / pdf);
+            ray = {at, way};
         }
         else
         {
@@ -327,15 +372,30 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
                                                  return glm::dvec3(0.0);
                                              return scattered;
                                          });
-            const std::array<double, 4> numbers = {random(), random(), random(), random()};
-            const FibreSample next = coif::sample(fibre, sin_o, numbers);
-            if (!(next.pdf > 0.0))
+            glm::dvec3 way;
+            double sin_i;
+            ScatterDensity there;
+            if (guided > 0.0 && random() < guided)
+            {
+                way = way_to_a_sun(random);
+                sin_i = std::clamp(glm::dot(way, along), -1.0, 1.0);
+                const double phi = std::atan2(glm::dot(way, other), glm::dot(way, side));
+                there = scatter_and_density(fibre, sin_o, sin_i, phi);
+            }
+            else
+            {
+                const std::array<double, 4> numbers = {random(), random(), random(), random()};
+                const FibreSample next = coif::sample(fibre, sin_o, numbers);
+                const double cos_i = std::sqrt(std::max(0.0, 1.0 - next.sin_i * next.sin_i));
+                sin_i = next.sin_i;
+                there = {next.weight * next.pdf, next.pdf};
+                way = glm::normalize(sin_i * along + cos_i * (std::cos(next.phi) * side + std::sin(next.phi) * other));
+            }
+            const double pdf = (1.0 - guided) * there.pdf + (guided > 0.0 ? guided * density_of_suns(way) : 0.0);
+            if (!(pdf > 0.0))
                 break;
-            const double cos_i = std::sqrt(std::max(0.0, 1.0 - next.sin_i * next.sin_i));
-            ray = leaving(
-                glm::normalize(next.sin_i * along + cos_i * (std::cos(next.phi) * side + std::sin(next.phi) * other)),
-                next.sin_i);
-            share *= next.weight;
+            share *= there.light / pdf;
+            ray = leaving(way, sin_i);
         }
         const double most = std::max({share.x, share.y, share.z});
         if (!(most > kTrifle))
@@ -351,7 +411,8 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
     return light;
 }
 
-glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random random, int bounces) const
+// Through anywhere in a pixel, and anywhere in the lens.
+Ray Tracer::Embree::ray_of(int x, int y, int width, int height, Random& random) const
 {
     const double pixel = 2.0 * of.tangent / height; // at a distance of one
     const double right = (x + random() - 0.5 * width) * pixel, up = (0.5 * height - y - random()) * pixel;
@@ -363,7 +424,13 @@ glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random ran
         ray.from += radius * (std::cos(turn) * of.right + std::sin(turn) * of.up);
         ray.way = glm::normalize(sharp - ray.from);
     }
+    return ray;
+}
+
+glm::vec4 Tracer::Embree::sample(int x, int y, int width, int height, Random random, int bounces) const
+{
     bool hit = false;
+    const Ray ray = ray_of(x, y, width, height, random);
     const glm::dvec3 light = light_of(ray, random, bounces, hit);
     if (!std::isfinite(light.x + light.y + light.z))
         return glm::vec4(0.0f);
@@ -376,6 +443,22 @@ Tracer::Tracer(TracedScene scene) : embree_(std::make_unique<Embree>(std::move(s
 }
 Tracer::~Tracer() = default;
 const TracedScene& Tracer::scene() const { return embree_->of; }
+
+std::vector<float> Tracer::hair(int width, int height, int samples) const
+{
+    std::vector<float> share(size_t(width) * size_t(height), 0.0f);
+    Random random{0};
+    for (size_t pixel = 0; pixel < share.size(); ++pixel)
+        for (int s = 0; s < samples; ++s)
+        {
+            const Ray ray =
+                embree_->ray_of(int(pixel % size_t(width)), int(pixel / size_t(width)), width, height, random);
+            const unsigned met = embree_->meet(ray).hit.geomID;
+            if (met != RTC_INVALID_GEOMETRY_ID && met == embree_->strands_id)
+                share[pixel] += 1.0f / float(samples);
+        }
+    return share;
+}
 
 static uint64_t mixed(uint64_t a, uint64_t b) { return Random{a ^ b * 0xd1342543de82ef95u}.bits(); }
 

@@ -44,6 +44,9 @@ class Tracer
     // A sample depends on its pixel, its number and the seed alone, so that neither threads nor stops change anything.
     void trace(Accumulation& picture, uint32_t samples, const TraceLimits& limits, const TraceSays& says = {}) const;
 
+    // The share of each pixel where hair is what is met first.
+    std::vector<float> hair(int width, int height, int samples) const;
+
     const TracedScene& scene() const;
 
   private:

@@ -145,8 +145,8 @@ TEST(FibreNear, samples_fall_where_the_density_says)
                 {
                     const double sin_i = 2.0 * (i + 0.5) / (kThetas * kFine) - 1.0;
                     const double phi = 2.0 * kPi * (k + 0.5) / (kPhis * kFine);
-                    const double share =
-                        sample_pdf(fibre, sin_o, sin_i, phi) * 2.0 / (kThetas * kFine) * 2.0 * kPi / (kPhis * kFine);
+                    const double share = scatter_and_density(fibre, sin_o, sin_i, phi).pdf * 2.0 / (kThetas * kFine) *
+                                         2.0 * kPi / (kPhis * kFine);
                     expected[size_t(i / kFine * kPhis + k / kFine)] += share * kSamples;
                     total += share;
                 }
