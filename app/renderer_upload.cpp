@@ -246,6 +246,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    upload_ground(frame);
     if (params.render_show == 1)
         return;
     if (method_of(params) == BY_OPENCL)
