@@ -79,7 +79,7 @@ std::optional<size_t> Editor::light_under(double x, double y) const
 void Editor::show_lights(bool on)
 {
     lights_shown_ = on;
-    if (!on && std::exchange(brightened_, false))
+    if (std::exchange(brightened_, false))
     {
         apply_strokes();
         note_edit(history_, style_, saved_, "brightness of lights");
@@ -92,7 +92,7 @@ bool Editor::press_light(double x, double y)
     const std::vector<Light> all = lights();
     if (!lights_shown_ || all.empty())
         return false;
-    show_lights(true);
+    show_lights(true); // and the wheel's edit ends
     panel_.light = std::min(light_under(x, y).value_or(panel_.light), all.size() - 1);
     held_.what = Grab::LIGHT;
     held_.light = panel_.light;

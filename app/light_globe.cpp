@@ -13,7 +13,7 @@ namespace coif
 LightGlobe light_globe(const Camera& camera, glm::dvec3 head, int width, int height)
 {
     LightGlobe globe;
-    globe.radius = std::max(1.0, 0.235 * std::min(width, height));
+    globe.radius = 0.235 * std::max(1, std::min(width, height));
     const glm::dvec2 view(width, height), room(2.0 * globe.radius);
     globe.center = glm::clamp(project(camera, head, width, height).value_or(0.5 * view), room, view - room);
     const glm::dvec3 back = glm::normalize(camera.position() - camera.target);

@@ -62,7 +62,8 @@ struct FieldEditor
     }
     void number(const char* name, float& value, Limits limits, bool = false)
     {
-        const bool wide = limits.min > 0.0f && limits.max > 40.0f * limits.min;
+        const bool wide =
+            limits.min > 0.0f ? limits.max > 40.0f * limits.min : limits.min == 0.0f && limits.max >= 100.0f;
         changed |= ImGui::SliderFloat(name, &value, limits.min, limits.max,
                                       *limits.unit ? fmt::format("%.4g {}", limits.unit).c_str() : "%.4g",
                                       ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
@@ -317,7 +318,7 @@ template <typename Entry> static void draw_title(const Entry& entry, size_t i, P
         ImGui::TextUnformatted(title.c_str());
 }
 
-bool draw_list(HostParams& host, const ParamInfo& info, PanelState& state)
+static bool draw_entries(HostParams& host, const ParamInfo& info, PanelState& state)
 {
     const size_t most = most_entries(info);
     return with_list(host, info,
@@ -350,6 +351,17 @@ bool draw_list(HostParams& host, const ParamInfo& info, PanelState& state)
                          ImGui::PopID();
                          return changed;
                      });
+}
+
+bool draw_list(HostParams& host, const ParamInfo& info, PanelState& state)
+{
+    const bool replaced = info.group == std::string_view("light") && !host.look_lights.empty();
+    if (replaced)
+        ImGui::TextDisabled("%s shines in their place", host.look_lights.c_str());
+    ImGui::BeginDisabled(replaced);
+    const bool changed = draw_entries(host, info, state);
+    ImGui::EndDisabled();
+    return changed;
 }
 
 } // namespace coif

@@ -92,7 +92,7 @@ TEST(Lights, what_is_wrong_is_told_with_its_place_in_files_and_in_styles)
         {one + "power = 9\n", ":3:9: a light has no 'power'; it has name, direction, color, irradiance, angle"},
         {"[light]\ndirection = [0, 1, 0]\n", ":1:1: light must be written as [[light]] tables"},
         {many + one, ":1:1: 17 lights are more than the 16 that coif takes"},
-        {"[[light]\n", ":1:8: not valid TOML"},
+        {"[[light]\n", ":1:9: not valid TOML"},
     };
     const Scratch scratch;
     const auto told = [&](const std::string& text) {
@@ -175,6 +175,9 @@ TEST(Lights, those_that_are_shipped_are_what_they_are_called)
     EXPECT_LT(studio.lights[0].direction.x * studio.lights[1].direction.x, 0.0f) << "key and fill, from both sides";
     EXPECT_GT(studio.lights[0].irradiance, 2.0f * studio.lights[1].irradiance);
     EXPECT_LT(studio.lights[2].direction.z, 0.0f);
+    Hairstyle by_studio;
+    by_studio = lit(by_studio, studio);
+    EXPECT_GT(by_studio.params.look_light_direction.z, 0.0f) << "the key is the strongest";
     ASSERT_EQ(rim.lights.size(), 2u);
     for (const Light& light : rim.lights)
         EXPECT_LT(light.direction.z, 0.0f) << light.name;
@@ -258,7 +261,9 @@ TEST(Lights, black_ones_and_none_are_darkness_and_no_fault)
                     EXPECT_TRUE(std::isfinite(number)) << info.path();
             }
         if (!style.host.lights.empty())
+        {
             EXPECT_EQ(one.params.look_light_color, F4(0.0f, 0.0f, 0.0f, 1.0f)) << text;
+        }
     }
     // A file that has but a sky: the style's own lights do not shine through it.
     const Hairstyle style = parse_hairstyle("[[light]]\ndirection = [0, 1, 0]\n", "bob.toml");
