@@ -227,7 +227,8 @@ static int command(std::vector<std::string> words, bool only_look)
         command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
             ->capture_default_str();
         command->add_option("--camera", shot.camera, "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
-        command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")->capture_default_str();
+        command->add_option("--samples", shot.samples,
+                            "Pictures averaged against jagged edges; 16, or 64 where lens or shutter blurs");
         return command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
     };
     CLI::Option* shot_time = with_picture(shot_command);

@@ -227,6 +227,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    upload_ground(frame);
     light(frame);
     if (params.render_show == 1)
         return;

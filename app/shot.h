@@ -2,6 +2,9 @@
 #include "app/options.h"
 #include "app/renderer.h"
 
+#include <deque>
+#include <optional>
+
 namespace coif
 {
 
@@ -10,8 +13,8 @@ constexpr double kLongestShot = 3600.0; // s of a motion
 struct ShotOptions
 {
     int width = 1280, height = 720;
-    std::string camera; // "front", "left", "right", "back", "top", or "yaw,pitch" or "yaw,pitch,distance"
-    int samples = 16;
+    std::string camera;         // "front", "left", "right", "back", "top", or "yaw,pitch" or "yaw,pitch,distance"
+    std::optional<int> samples; // none: as many as the picture asks for
     bool transparent = false;
 };
 
@@ -34,18 +37,25 @@ class Studio
   public:
     Studio(const Device& device, const Hairstyle& style, const Motion& motion, const ShotOptions& shot);
 
-    void play_to(double seconds) { coif::play_to(simulation_, seconds); }
-    // Taken from `turn` (rad) further round the camera's target than the options say.
+    // Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
+    void play_to(double seconds);
+    // Taken from `turn` (rad) further round the camera's target than the options say. Where the shutter is open for a
+    // while, its samples are spread over that, to its end: what lies between two steps is where a straight line has it.
     Image picture(double turn = 0.0);
     // The same, written: its bytes as PNG, or where the file is called so its light as .hdr. Throws Error.
     void save(const std::filesystem::path& file, double turn = 0.0);
 
   private:
     FrameInput frame(double turn);
+    double open_steps() const; // that the shutter is open for
+    void note_moment(long target);
+    LinearImage linear_picture(double turn);
+    LinearImage moving_picture(double turn);
 
     ShotOptions shot_;
     Simulation simulation_;
     Renderer renderer_;
+    std::deque<std::pair<long, Moment>> moments_; // the last steps that the shutter was open for, by number
 };
 
 // Is it light that is written to a file of this name, rather than the bytes of a picture?

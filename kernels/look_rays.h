@@ -6,6 +6,14 @@
 
 static inline real ring_lanes(real at, int size) { return at - floor(at / (float)size) * (float)size; }
 
+// How far `at` is on its way from one ray to the next. One that is between the last voxel and the first, on its way
+// around, tells of the other side's hair: its neighbour stands in for it.
+static inline real beside(real share, real at, int size)
+{
+    const real first = select(share, (real)(1.0f), at < share);
+    return select(first, (real)(0.0f), at + 1.0f - share > (float)(size - 1));
+}
+
 // Bilinear between the four rays about (u, v) in each lane's slice.
 static inline real depth_in_slice(global const float* depth, LookRay ray, Slices s, real u, real v, whole slice)
 {
@@ -15,7 +23,7 @@ static inline real depth_in_slice(global const float* depth, LookRay ray, Slices
     const whole v0 = clamp(TO_WHOLE(rv), (whole)(0), (whole)(s.v - 1));
     const whole u1 = select((whole)(0), u0 + 1, u0 + 1 < s.u), v1 = select((whole)(0), v0 + 1, v0 + 1 < s.v);
     const whole row0 = (slice * s.v + v0) * s.u, row1 = (slice * s.v + v1) * s.u;
-    const real across = ru - TO_REAL(u0), along = rv - TO_REAL(v0);
+    const real across = beside(ru - TO_REAL(u0), u, s.u), along = beside(rv - TO_REAL(v0), v, s.v);
     const real low = mix(gather(depth, row0 + u0), gather(depth, row0 + u1), across);
     const real high = mix(gather(depth, row1 + u0), gather(depth, row1 + u1), across);
     return mix(low, high, along);

@@ -225,20 +225,20 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         const real eye_cosine = sqrt(fmax(1.0f - along_eye * along_eye, (real)(0.0f)));
         const Crossing c = crossing_at(curves, tip, inclined(eye_cosine));
         const float4 bright = look_frame->sky;
-        const real beyond_straight = LANES_LOAD(beyond[0]);
 #if LEVEL == 3
-        const real hidden = 1.0f - beyond_straight;
+        // What comes through cannot come back as well: a white stack lets through and throws back all light, not more.
+        const Rgb through = rgb(LANES_LOAD(beyond[1]), LANES_LOAD(beyond[2]), LANES_LOAD(beyond[3]));
         sum.r += open * bright.x *
-                 ((c.backward.r + back_albedo(c.forward.r, c.backward.r) * hidden) * LANES_LOAD(before[1]) +
-                  c.forward.r * LANES_LOAD(beyond[1]));
+                 ((c.backward.r + back_albedo(c.forward.r, c.backward.r) * (1.0f - through.r)) * LANES_LOAD(before[1]) +
+                  c.forward.r * through.r);
         sum.g += open * bright.y *
-                 ((c.backward.g + back_albedo(c.forward.g, c.backward.g) * hidden) * LANES_LOAD(before[2]) +
-                  c.forward.g * LANES_LOAD(beyond[2]));
+                 ((c.backward.g + back_albedo(c.forward.g, c.backward.g) * (1.0f - through.g)) * LANES_LOAD(before[2]) +
+                  c.forward.g * through.g);
         sum.b += open * bright.z *
-                 ((c.backward.b + back_albedo(c.forward.b, c.backward.b) * hidden) * LANES_LOAD(before[3]) +
-                  c.forward.b * LANES_LOAD(beyond[3]));
+                 ((c.backward.b + back_albedo(c.forward.b, c.backward.b) * (1.0f - through.b)) * LANES_LOAD(before[3]) +
+                  c.forward.b * through.b);
 #else
-        const real before_straight = LANES_LOAD(before[0]);
+        const real before_straight = LANES_LOAD(before[0]), beyond_straight = LANES_LOAD(beyond[0]);
         sum.r += open * bright.x * (c.backward.r * before_straight + c.forward.r * beyond_straight);
         sum.g += open * bright.y * (c.backward.g * before_straight + c.forward.g * beyond_straight);
         sum.b += open * bright.z * (c.backward.b * before_straight + c.forward.b * beyond_straight);

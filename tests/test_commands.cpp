@@ -28,6 +28,31 @@ TEST_F(Commands, a_transparent_shot_has_nothing_in_its_corners)
     EXPECT_EQ(image.pixels[size_t(4) * (80 * 200 + 100) + 3], 255) << "the head is in the middle";
 }
 
+TEST_F(Commands, lights_are_shared_by_name)
+{
+    const std::string shot = "shot small.toml --size 120x96 --samples 1 --time 0 ";
+    ASSERT_EQ(coif(shot + "-o own.png").status, 0);
+    const Result rim = coif(shot + "--set look.lights=rim.toml -o rim.png");
+    ASSERT_EQ(rim.status, 0) << rim.err;
+    EXPECT_NE(contents("own.png"), contents("rim.png"));
+    fs::create_directories(folder / "lights");
+    write("lights/mine.toml", "[[light]]\ndirection = [-1, 0, 0.2]\n");
+    ASSERT_EQ(coif("save small.toml --set look.lights=lights/mine.toml -o mine.toml").status, 0);
+    EXPECT_NE(contents("mine.toml").find("[look]\nlights = \"lights/mine.toml\"\n"), std::string::npos);
+    EXPECT_EQ(coif("check mine.toml").status, 0);
+    write("lights/mine.toml", "[[light]]\ndirection = [-1, 0, 0.2]\nirradiance = -1\n");
+    const Result broken = coif("check mine.toml");
+    EXPECT_EQ(broken.status, 1);
+    EXPECT_NE(broken.out.find("lights/mine.toml:3:14: light.irradiance is -1, but must lie in [0, 100]"),
+              std::string::npos)
+        << broken.out;
+    const Result none = coif(shot + "--set look.lights=none.toml -o none.png");
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("--set look.lights: look.lights: no file 'none.toml', neither as"), std::string::npos)
+        << none.err;
+    EXPECT_FALSE(fs::exists(folder / "none.png"));
+}
+
 TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
 {
     const std::string shot = "shot small.toml --size 64x48 --time 0 ";

@@ -1,0 +1,67 @@
+// Double-precision twins of the passes that follow light through the hair (kernels/look.h), as oracle.h says. Of one
+// fibre they read the text that kernels read, in doubles: tests/host/test_fibre.cpp holds that against a twin of its
+// own.
+#pragma once
+#include "app/fibre_shares.h"
+#include "kernels/look.h"
+#include "tests/fibre.h"
+#include "tests/oracle.h"
+
+#include <array>
+
+namespace coif::oracle
+{
+
+// Of a voxel: fibre times the way it runs, and fibre.
+using Fibres = std::array<double, 4>;
+
+size_t voxels_of(const LookVolume& volume);
+
+// In voxels from the first one's middle.
+Vec in_voxels(Vec p, const LookVolume& volume);
+
+// Length times width of each voxel, m^2, shared out trilinearly from the middles of parts of at most a voxel.
+std::vector<Fibres> fibre_in_voxels(const std::vector<float4>& places, const LookVolume& volume);
+
+// What bodies add to the fourth of each, 1/m: as deep as a ray of `deep` takes in a voxel, less under the surface's
+// first two voxels.
+std::vector<double> bodies_in_voxels(const std::vector<Capsule>& colliders, const Body& body, const LookVolume& volume,
+                                     const StepInfo& info);
+
+// 1/m, along a direction of unit length.
+double extinction(const Fibres& fibre, Vec direction, double self_shadow);
+
+// Optical depth of each ray of a bundle in each slice: [slice][v][u].
+std::vector<double> sweep(const float* extinction, const LookVolume& volume, const LookRay& ray);
+
+// Read from such a sweep, at a point in voxels; from outside of the volume, from where the ray comes in.
+double depth_at(const float* depth, const LookVolume& volume, const LookRay& ray, Vec at);
+
+// The same by a march of half a voxel's steps through the trilinear extinction; nothing lies outside.
+double march(const float* extinction, const LookVolume& volume, Vec at, Vec direction);
+
+// What is left of a uniform sky in the two halves about `way`: straight, red, green, blue. `cosine` as
+// kernels/look_rays.h has it.
+struct SkyLeft
+{
+    std::array<double, 4> front, behind;
+};
+SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine);
+
+// All that the colours of a hair's places hang on besides the strand.
+struct Lit
+{
+    HairParams params; // as the device reads them
+    LookFrame frame;
+    LookVolume volume, coarse;
+    std::vector<LookRay> rays;
+    std::vector<float> depth, sky, table;
+    Vec forward;
+};
+
+// Radiance of place `k` of a strand, at LEVEL as kernels/look_shade.cl has it.
+Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, int level);
+
+Vec lit_surface(const Lit& lit, const LookSurface& surface);
+
+} // namespace coif::oracle

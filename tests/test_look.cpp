@@ -1,0 +1,759 @@
+// Light in the hair: the passes of kernels/look.h against their double-precision twins, and what must hold of them.
+#include "app/shading.h"
+#include "sim/wave.h"
+#include "tests/on_device.h"
+#include "tests/oracle_look.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+namespace coif
+{
+namespace
+{
+
+using oracle::Vec, oracle::xyz;
+
+constexpr int kNodes = 12;
+const glm::vec3 kEye(0.3f, 0.1f, 0.9f);
+
+struct Tress
+{
+    std::vector<glm::vec3> nodes; // m; the first lies under the scalp
+    glm::vec3 root{0.5f}, tip{0.5f};
+    float width = 0.002f, opacity = 1.0f;
+};
+
+HairParams plain_params()
+{
+    HairParams p;
+    p.strand_nodes = kNodes;
+    p.grid_resolution = 16;
+    p.forces_repulsion = 0.0f;
+    p.look_volume = 48;
+    p.look_taper = p.look_variation = 0.0f;
+    p.wave_normal_amplitude = p.wave_binormal_amplitude = 0.0f;
+    return p;
+}
+
+float of_half(uint16_t half)
+{
+    const int exponent = half >> 10 & 31;
+    return exponent ? std::ldexp(float(1024 + (half & 1023)), exponent - 25) : std::ldexp(float(half & 1023), -24);
+}
+
+Lighting light_from(std::initializer_list<glm::vec3> directions, glm::vec3 sky = glm::vec3(0.0f))
+{
+    Lighting lighting;
+    for (const glm::vec3& d : directions)
+        lighting.suns.push_back({glm::normalize(d), {2.0f, 1.8f, 1.5f}, 0.0f});
+    lighting.sky = sky;
+    return lighting;
+}
+
+// Kernels that are built once for all tests.
+Device kept(Device device)
+{
+    static const auto built = std::make_shared<std::map<std::string, Kernel>>();
+    device.built = built;
+    return device;
+}
+
+// Strands that lie where they are said to, and the light in them.
+class Hair
+{
+  public:
+    explicit Hair(const std::vector<Tress>& tresses, const HairParams& authored = plain_params(), bool bodies = false,
+                  const Device& device = test_device())
+        : device_(kept(device)), params(device_params(authored)), shading(device_)
+    {
+        Groom groom = one_strand(kNodes, 0.1f, {0.0f, 0.1f, 0.0f}, {0.0f, 1.0f, 0.0f});
+        groom.drawn.resize(tresses.size());
+        groom.drawn_multi = int(tresses.size());
+        std::vector<float4> positions, frames;
+        for (size_t s = 0; s < tresses.size(); ++s)
+        {
+            const Tress& t = tresses[s];
+            StrandLook look = {};
+            look.root_color = F4(t.root.x, t.root.y, t.root.z, t.width);
+            look.tip_color = F4(t.tip.x, t.tip.y, t.tip.z, t.opacity);
+            look.own.x = float(s);
+            groom.looks.push_back(look);
+            groom.drawn[s].weights = F4(1.0f, 0.0f, 0.0f, 0.0f);
+            groom.drawn[s].leader = int(s);
+            float length = 0.0f;
+            for (size_t k = 0; k < t.nodes.size(); ++k)
+            {
+                length += k > 1 ? glm::distance(t.nodes[k], t.nodes[k - 1]) : 0.0f;
+                positions.push_back(F4(t.nodes[k].x, t.nodes[k].y, t.nodes[k].z, 1.0f));
+                frames.push_back(F4(0.0f, 0.0f, 1.0f, length));
+            }
+        }
+        looks = groom.looks;
+        solver = std::make_unique<Solver>(device_, authored, groom, Pose{});
+        if (bodies)
+        {
+            solver->set_colliders(
+                {{{0.12f, -0.05f, 0.02f}, 0.04f}, {{-0.1f, 0.1f, 0.0f}, 0.03f, false, {{-0.1f, -0.1f, 0.1f}}}});
+            solver->set_body({lumpy_body(), 0.8f, {0.0f, 0.01f, 0.0f}});
+        }
+        solver->step({{Pose{}, 1.0 / 60.0, 1.0f / 60.0f}});
+        solver->draw();
+        write(device_, solver->buffers().at("drawn_position"), positions);
+        write(device_, solver->buffers().at("drawn_frame"), frames);
+    }
+
+    void light(const Lighting& lighting)
+    {
+        shading.light(
+            {solver.get(), params, wave_table(params), {}, lighting, glm::vec3(INFINITY), glm::vec3(-INFINITY)});
+        suns = lighting.suns.size();
+    }
+
+    // Radiance of all places.
+    std::vector<glm::vec3> colors(int level, glm::vec3 eye = kEye)
+    {
+        const std::vector<uint16_t> halves = bits(level, eye);
+        std::vector<glm::vec3> found;
+        for (size_t i = 0; i < halves.size(); i += 4)
+            found.emplace_back(of_half(halves[i]), of_half(halves[i + 1]), of_half(halves[i + 2]));
+        return found;
+    }
+    std::vector<uint16_t> bits(int level, glm::vec3 eye = kEye)
+    {
+        shading.shade(eye, level, 1.0f);
+        return read<uint16_t>(device_, shading.buffers().at("shaded"), places() * 4);
+    }
+
+    size_t places() const { return size_t(shading.volume().strands) * size_t(shading.volume().places); }
+    template <typename T> std::vector<T> values(const char* name, size_t count) const
+    {
+        return read<T>(device_, shading.buffers().at(name), count);
+    }
+
+    // What the twins read: what the passes before have left.
+    oracle::Lit lit() const
+    {
+        oracle::Lit lit;
+        lit.params = params;
+        lit.frame = values<LookFrame>("look_frame", 1)[0];
+        lit.volume = shading.volume();
+        lit.coarse = values<LookVolume>("coarse_volume", 1)[0];
+        lit.rays = values<LookRay>("rays", suns);
+        lit.depth = values<float>("depth", suns * oracle::voxels_of(lit.volume));
+        lit.sky = values<float>("sky", 16 * oracle::voxels_of(lit.coarse));
+        lit.table = values<float>("shares", SHARE_ROWS * SHARE_TERMS);
+        lit.forward = xyz(values<float4>("forward", 1)[0]);
+        return lit;
+    }
+
+  private:
+    Device device_;
+
+  public:
+    const HairParams params;
+    std::vector<StrandLook> looks;
+    std::unique_ptr<Solver> solver;
+    Shading shading;
+    size_t suns = 0;
+};
+
+// All over a ball of 9 cm, each bent its own way, of all colours.
+std::vector<Tress> tangle(int count, float width = 0.002f)
+{
+    Random random(21);
+    std::vector<Tress> tresses;
+    for (int s = 0; s < count; ++s)
+    {
+        Tress t;
+        glm::dvec3 at = 0.09 * random.direction(), way = glm::normalize(at) + 0.5 * random.direction();
+        for (int k = 0; k < kNodes; ++k)
+        {
+            t.nodes.emplace_back(at);
+            way = glm::normalize(way + 0.4 * random.direction());
+            at += 0.012 * way;
+        }
+        const auto color = [&] { return glm::vec3(random.in(0.02, 0.95), random.in(0.02, 0.9), random.in(0.02, 0.8)); };
+        t.root = color();
+        t.tip = color();
+        t.width = width * float(random.in(0.5, 1.0));
+        t.opacity = float(random.in(0.5, 1.0));
+        tresses.push_back(t);
+    }
+    return tresses;
+}
+
+const std::initializer_list<glm::vec3> kSixLights = {{0.0f, 1.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f},
+                                                     {1.0f, 1.0f, 1.0f}, {-1.0f, 0.4f, 0.2f}, {0.45f, 0.75f, 0.6f}};
+const glm::vec3 kSky(0.3f, 0.35f, 0.4f);
+
+// One hair with bodies in it, lit from six sides and by the sky, that the tests of single passes share.
+class LookPasses : public testing::Test
+{
+  protected:
+    static void SetUpTestSuite()
+    {
+        HairParams params = plain_params();
+        params.look_taper = 0.6f;
+        params.look_variation = 0.3f;
+        params.look_opacity_along = F4(1.0f, 1.0f, 0.9f, 0.5f);
+        hair = std::make_unique<Hair>(tangle(400), params, true);
+        hair->light(light_from(kSixLights, kSky));
+        volume = hair->shading.volume();
+        all = oracle::voxels_of(volume);
+        places = hair->values<float4>("places", hair->places());
+    }
+    static void TearDownTestSuite() { hair.reset(); }
+
+    static std::unique_ptr<Hair> hair;
+    static LookVolume volume;
+    static size_t all;
+    static std::vector<float4> places;
+};
+std::unique_ptr<Hair> LookPasses::hair;
+LookVolume LookPasses::volume;
+size_t LookPasses::all;
+std::vector<float4> LookPasses::places;
+
+TEST_F(LookPasses, PlacesLieOnTheCurveAndAreAsWideAsItIsOpaque)
+{
+    const std::vector<Tress> tresses = tangle(400);
+    const int pieces = (volume.places - 1) / (kNodes - 2);
+    ASSERT_EQ(pieces * (kNodes - 2) + 1, volume.places);
+    double worst = 0.0, worst_width = 0.0;
+    for (int s = 0; s < volume.strands; ++s)
+        for (int k = 0; k < volume.places; ++k)
+        {
+            const int segment = std::min(k / pieces, kNodes - 3);
+            double w[4];
+            oracle::curve_weights(hair->params.smoothing_curve, double(k) / pieces - segment, w);
+            Vec at(0.0);
+            for (int i = 0; i < 4; ++i)
+                at += w[i] * Vec(tresses[size_t(s)].nodes[size_t(std::min(segment + i, kNodes - 1))]);
+            const float4& found = places[size_t(s * volume.places + k)];
+            worst = std::max(worst, glm::distance(at, xyz(found)));
+            const double along = double(k) / (volume.places - 1);
+            const StrandLook& look = hair->looks[size_t(s)];
+            const double width = double(look.root_color.w) * (1.0 - 0.6 * along * along) * double(look.tip_color.w) *
+                                 oracle::profile_at(hair->params.look_opacity_along, along);
+            worst_width = std::max(worst_width, std::abs(width - double(found.w)));
+        }
+    EXPECT_LT(worst, 1e-7);
+    EXPECT_LT(worst_width, 1e-9);
+}
+
+TEST_F(LookPasses, DensityIsTheTwinsAndLosesNothing)
+{
+    const std::vector<cl_int4> sums = hair->values<cl_int4>("fibre_sums", all * size_t(volume.copies));
+    const std::vector<oracle::Fibres> expected = oracle::fibre_in_voxels(places, volume);
+    const double to_area = std::pow(double(volume.corner.w), 2) / double(volume.unit);
+    double worst = 0.0, most = 0.0, mass = 0.0, whole = 0.0;
+    for (size_t i = 0; i < all; ++i)
+        for (size_t axis = 0; axis < 4; ++axis)
+        {
+            double sum = 0.0;
+            for (size_t copy = 0; copy < size_t(volume.copies); ++copy)
+                sum += sums[copy * all + i].s[axis] * to_area;
+            worst = std::max(worst, std::abs(sum - expected[i][axis]));
+            most = std::max(most, expected[i][axis]);
+            mass += axis == 3 ? sum : 0.0;
+        }
+    for (int s = 0; s < volume.strands; ++s)
+        for (int k = 0; k + 1 < volume.places; ++k)
+        {
+            const float4 &a = places[size_t(s * volume.places + k)], &b = places[size_t(s * volume.places + k + 1)];
+            whole += glm::distance(xyz(a), xyz(b)) * 0.5 * (double(a.w) + double(b.w));
+        }
+    EXPECT_LT(worst, 2e-5 * most); // coordinates of 50 voxels are rounded to 3e-6
+    EXPECT_NEAR(mass, whole, 1e-6 * whole);
+    EXPECT_GT(whole, 0.0);
+}
+
+TEST_F(LookPasses, TheVolumeHoldsTheHairAndTheBodiesInIt)
+{
+    const std::vector<float> fibre = hair->values<float>("fibre", 4 * all);
+    const std::vector<oracle::Fibres> hairs = oracle::fibre_in_voxels(places, volume);
+    const oracle::Body body = oracle::body_of(*hair->solver->body().grid);
+    const std::vector<double> bodies =
+        oracle::bodies_in_voxels(hair->solver->placed_colliders(), body, volume, hair->solver->info());
+    const double per_volume = std::pow(double(volume.corner.w), -3);
+    double worst = 0.0, most = 0.0, worst_way = 0.0;
+    int deep = 0, edge = 0;
+    for (size_t i = 0; i < all; ++i)
+    {
+        const double expected = hairs[i][3] * per_volume + bodies[i];
+        most = std::max(most, expected);
+        worst = std::max(worst, std::abs(double(fibre[3 * all + i]) - expected));
+        for (size_t axis = 0; axis < 3; ++axis)
+            worst_way = std::max(worst_way, std::abs(double(fibre[axis * all + i]) - hairs[i][axis] * per_volume));
+        deep += bodies[i] > 0.99 * 6.0 / (0.7853981634 * double(volume.corner.w));
+        edge += bodies[i] > 0.0;
+    }
+    EXPECT_LT(worst, 3e-5 * most);
+    EXPECT_LT(worst_way, 3e-5 * most);
+    EXPECT_GT(deep, 20);
+    EXPECT_GT(edge, deep + 100);
+}
+
+TEST_F(LookPasses, FibresShadeByTheAreaThatTheyTurnToTheLight)
+{
+    const std::vector<float> fibre = hair->values<float>("fibre", 4 * all);
+    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
+    const std::vector<LookRay> rays = hair->values<LookRay>("rays", hair->suns);
+    double worst = 0.0, most = 0.0;
+    for (size_t ray = 0; ray < hair->suns; ++ray)
+        for (size_t i = 0; i < all; ++i)
+        {
+            const oracle::Fibres f = {fibre[i], fibre[all + i], fibre[2 * all + i], fibre[3 * all + i]};
+            const double expected = oracle::extinction(f, xyz(rays[ray].direction), 1.0);
+            worst = std::max(worst, std::abs(double(taken[ray * all + i]) - expected));
+            most = std::max(most, expected);
+        }
+    EXPECT_LT(worst, 1e-5 * most);
+}
+
+TEST_F(LookPasses, SweepsAreTheTwins)
+{
+    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
+    const std::vector<float> depth = hair->values<float>("depth", hair->suns * all);
+    const std::vector<LookRay> rays = hair->values<LookRay>("rays", hair->suns);
+    for (size_t ray = 0; ray < hair->suns; ++ray)
+    {
+        const std::vector<double> expected = oracle::sweep(&taken[ray * all], volume, rays[ray]);
+        double worst = 0.0, most = 0.0;
+        for (size_t i = 0; i < all; ++i)
+        {
+            const double found = double(depth[ray * all + i]);
+            worst = std::max(worst, std::isfinite(found) ? std::abs(found - expected[i]) : INFINITY);
+            most = std::max(most, expected[i]);
+        }
+        EXPECT_LT(worst, 1e-5 * most) << "light " << ray; // as GridPasses.TransmittanceIsTheTwinsFromEverySide
+        EXPECT_GT(most, 5.0);
+    }
+}
+
+// Lights that lean are swept in steps of up to 1.7 voxels, and read between rays: shadows of bodies are softer by a
+// voxel.
+TEST_F(LookPasses, WhatASweepLeavesIsWhatAMarchFinds)
+{
+    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
+    const oracle::Lit lit = hair->lit();
+    const std::vector<LookRay>& rays = lit.rays;
+    for (size_t ray = 0; ray < rays.size(); ++ray)
+    {
+        const Vec l = xyz(rays[ray].direction);
+        double off = 0.0, shade = 0.0;
+        int points = 0;
+        for (size_t i = 0; i < places.size(); i += 3)
+        {
+            const Vec at = oracle::in_voxels(xyz(places[i]), volume) + 0.5 * l;
+            const double marched = std::exp(-oracle::march(&taken[ray * all], volume, at, l));
+            const double swept = std::exp(-oracle::depth_at(&lit.depth[ray * all], volume, rays[ray], at));
+            off += std::abs(marched - swept);
+            shade += marched;
+            ++points;
+        }
+        EXPECT_LT(off / points, 0.03) << "light " << ray;
+        EXPECT_GT(shade / points, 0.05);
+        EXPECT_LT(shade / points, 0.95);
+    }
+}
+
+TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
+{
+    const oracle::Lit lit = hair->lit();
+    const size_t coarse = oracle::voxels_of(lit.coarse);
+    const std::vector<LookRay> rays = hair->values<LookRay>("sky_rays", SKY_RAYS);
+    const std::vector<float> depth = hair->values<float>("coarse_depth", SKY_RAYS * coarse);
+    const std::vector<float> taken = hair->values<float>("coarse_extinction", SKY_RAYS * coarse);
+    const std::vector<float> fine = hair->values<float>("fibre", 4 * all);
+    const std::vector<float> mean = hair->values<float>("coarse_fibre", 4 * coarse);
+    for (size_t plane = 0; plane < 4; ++plane) // nothing is lost between fine voxels and coarse ones
+    {
+        double sum = 0.0, coarse_sum = 0.0, most = 0.0;
+        for (size_t i = 0; i < all; ++i)
+            sum += double(fine[plane * all + i]), most += std::abs(double(fine[plane * all + i]));
+        for (size_t i = 0; i < coarse; ++i)
+            coarse_sum += 27.0 * double(mean[plane * coarse + i]);
+        EXPECT_NEAR(coarse_sum, sum, 1e-5 * most) << plane;
+    }
+    double worst = 0.0, off_twin = 0.0, off = 0.0, off_lean = 0.0;
+    int voxels = 0;
+    for (int z = 0; z < lit.coarse.z; ++z)
+        for (int y = 0; y < lit.coarse.y; ++y)
+            for (int x = 0; x < lit.coarse.x; ++x)
+            {
+                const size_t voxel = size_t(x) + size_t(lit.coarse.x) * (size_t(y) + size_t(lit.coarse.y) * size_t(z));
+                if (mean[3 * coarse + voxel] <= 0.0f)
+                    continue; // no hair comes there
+                std::array<double, 16> twin = {}, marched = {};
+                for (size_t i = 0; i < SKY_RAYS; ++i)
+                {
+                    const Vec d = xyz(rays[i].direction);
+                    const double tau[2] = {oracle::depth_at(&depth[i * coarse], lit.coarse, rays[i], Vec(x, y, z)),
+                                           oracle::march(&taken[i * coarse], lit.coarse, Vec(x, y, z), d)};
+                    for (size_t c = 0; c < 4; ++c)
+                        for (size_t of = 0; of < 2; ++of)
+                        {
+                            const double left =
+                                std::exp(-tau[of] * (c == 0 ? 1.0 : 1.0 - lit.forward[int(c) - 1])) / SKY_RAYS;
+                            std::array<double, 16>& sums = of == 0 ? twin : marched;
+                            sums[c] += left;
+                            for (int axis = 0; axis < 3; ++axis)
+                                sums[4 + 4 * size_t(axis) + c] += 3.0 * d[axis] * left;
+                        }
+                }
+                for (size_t i = 0; i < 16; ++i)
+                {
+                    const double found = double(lit.sky[16 * voxel + i]);
+                    worst = std::max(worst, std::abs(found - twin[i]));
+                    off_twin += std::abs(found - twin[i]);
+                    (i < 4 ? off : off_lean) += std::abs(found - marched[i]);
+                }
+                ++voxels;
+            }
+    EXPECT_GT(voxels, 200);
+    // Where a ray just reaches the volume's side, a float's rounding decides whether it is read.
+    EXPECT_LT(off_twin / voxels / 16, 1e-5);
+    EXPECT_LT(worst, 0.01);
+    EXPECT_LT(off / voxels / 4, 0.03);
+    EXPECT_LT(off_lean / voxels / 12, 0.03);
+}
+
+TEST_F(LookPasses, ColoursAreTheTwins)
+{
+    for (const int level : {LOOK_KARIS, LOOK_FAR_FIELD, LOOK_DUAL_SCATTERING})
+    {
+        const std::vector<glm::vec3> found = hair->colors(level);
+        const oracle::Lit lit = hair->lit();
+        double worst = 0.0, mean = 0.0;
+        int compared = 0;
+        for (int s = 0; s < volume.strands; s += 7)
+            for (int k = 0; k < volume.places; ++k)
+            {
+                const Vec expected = oracle::shade(lit, &places[size_t(s * volume.places)], k, hair->looks[size_t(s)],
+                                                   level - LOOK_KAJIYA_KAY);
+                const glm::vec3 is = found[size_t(s * volume.places + k)];
+                for (int c = 0; c < 3; ++c)
+                {
+                    worst = std::max(worst, std::abs(double(is[c]) - expected[c]) / (expected[c] + 1e-3));
+                    mean += expected[c];
+                    ++compared;
+                }
+            }
+        // A half holds eleven bits: 5e-4. The rest is that of tau, whose coordinates are floats.
+        EXPECT_LT(worst, 1.5e-3) << "level " << level;
+        EXPECT_GT(mean / compared, 0.01);
+    }
+}
+
+std::vector<LookSurface> random_surfaces(int count)
+{
+    Random random(8);
+    std::vector<LookSurface> surfaces;
+    for (int i = 0; i < count; ++i)
+    {
+        const glm::vec3 n(random.direction()), at = float(random.in(0.03, 0.25)) * n;
+        surfaces.push_back(
+            {F4(at.x, at.y, at.z, 1.0f), F4(n.x, n.y, n.z, float(i % 2)),
+             F4(float(random.in(0, 1)), float(random.in(0, 1)), float(random.in(0, 1)), float(i / 2 % 2))});
+    }
+    return surfaces;
+}
+
+TEST_F(LookPasses, SolidThingsAreLitAsTheTwinSays)
+{
+    const std::vector<LookSurface> surfaces = random_surfaces(501);
+    const std::vector<float4> found = hair->shading.lit(surfaces, kEye);
+    const oracle::Lit lit = hair->lit();
+    ASSERT_EQ(found.size(), surfaces.size());
+    double worst = 0.0, mean = 0.0;
+    for (size_t i = 0; i < surfaces.size(); ++i)
+    {
+        const Vec expected = oracle::lit_surface(lit, surfaces[i]), is = xyz(found[i]);
+        for (int c = 0; c < 3; ++c)
+            worst = std::max(worst, std::abs(is[c] - expected[c]) / (expected[c] + 0.01));
+        mean += expected.x / double(surfaces.size());
+    }
+    EXPECT_LT(worst, 2e-4);
+    EXPECT_GT(mean, 0.05);
+}
+
+// ---- what must hold
+// --------------------------------------------------------------------------------------------------
+
+TEST(Look, AllWidthsFindTheSame)
+{
+    const Lighting lighting = light_from(kSixLights, kSky);
+    Hair wide(tangle(60), plain_params(), true, with_width(16));
+    wide.light(lighting);
+    const std::vector<uint16_t> wide_bits = wide.bits(LOOK_DUAL_SCATTERING);
+    const std::vector<float4> wide_lit = wide.shading.lit(random_surfaces(40), kEye);
+    const size_t count = wide.suns * oracle::voxels_of(wide.shading.volume());
+    const std::vector<float> wide_depth = wide.values<float>("depth", count);
+    EXPECT_GT(std::ranges::max(wide_depth), 3.0f);
+    Device as_gpu = with_width(1);
+    as_gpu.is_gpu = true; // one sum for all, by atomic additions
+    for (const Device& device : {with_width(8), with_width(1), as_gpu})
+    {
+        const char* kind = device.is_gpu ? ", as a GPU" : "";
+        Hair narrow(tangle(60), plain_params(), true, device);
+        narrow.light(lighting);
+        const std::vector<float> depth = narrow.values<float>("depth", count);
+        double worst = 0.0;
+        for (size_t i = 0; i < count; ++i)
+            worst = std::max(worst, double(std::abs(depth[i] - wide_depth[i])));
+        EXPECT_LT(worst, 1e-6 * 60.0) << device.width << kind; // bodies are so deep
+        const std::vector<float4> lit = narrow.shading.lit(random_surfaces(40), kEye);
+        for (size_t i = 0; i < lit.size(); ++i)
+            EXPECT_LT(glm::distance(xyz(lit[i]), xyz(wide_lit[i])), 1e-6) << device.width << kind << ' ' << i;
+        const std::vector<uint16_t> bits = narrow.bits(LOOK_DUAL_SCATTERING);
+        ASSERT_EQ(bits.size(), wide_bits.size());
+        int apart = 0, far = 0; // a part in a million moves one in a thousand halves over its rounding
+        for (size_t i = 0; i < bits.size(); ++i)
+        {
+            apart += bits[i] != wide_bits[i];
+            far += std::abs(int(bits[i]) - int(wide_bits[i])) > 1;
+        }
+        EXPECT_LT(apart, int(bits.size()) / 100) << device.width << kind;
+        EXPECT_EQ(far, 0) << device.width << kind;
+    }
+}
+
+TEST(Look, EqualInputGivesEqualBytesAndNothingIsWrittenOutside)
+{
+    Device guarded = test_device();
+    guarded.guards = std::make_shared<Guards>();
+    const Lighting lighting = light_from(kSixLights, kSky);
+    Hair first(tangle(45), plain_params(), true), second(tangle(45), plain_params(), true, guarded);
+    first.light(lighting);
+    second.light(lighting);
+    for (const int level : {LOOK_KARIS, LOOK_DUAL_SCATTERING})
+    {
+        const std::vector<uint16_t> once = first.bits(level);
+        EXPECT_TRUE(once == second.bits(level));
+        first.light(light_from({{0.0f, -1.0f, 0.0f}}));
+        first.light(lighting);
+        EXPECT_TRUE(once == first.bits(level)) << "whatever came in between";
+    }
+    second.shading.lit(random_surfaces(17), kEye);
+    EXPECT_EQ(find_trespasses(guarded), std::vector<std::string>());
+}
+
+// Straight strands along x, side by side: what lies under them has their width times their length over it.
+TEST(Look, ASlabShadesByItsFibres)
+{
+    std::vector<Tress> tresses;
+    constexpr float kThick = 0.04f, kWide = 0.2f, kApart = 0.0016f, kFibre = 0.00006f; // m
+    for (float y = 0.5f * kApart; y < kThick; y += kApart)
+        for (float z = -0.5f * kWide + 0.5f * kApart; z < 0.5f * kWide; z += kApart)
+        {
+            Tress t;
+            for (int k = 0; k < kNodes; ++k)
+                t.nodes.emplace_back(kWide * (float(k - 1) / float(kNodes - 2) - 0.5f), y, z);
+            t.width = kFibre;
+            tresses.push_back(t);
+        }
+    Hair hair(tresses);
+    hair.light(light_from({{0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.5f}, {0.8f, 1.0f, 0.0f}}));
+    const double through = double(kThick) / kApart * double(kFibre) / kApart; // crossings, straight down
+    const double lean = std::sqrt(1.25);
+    // Across the fibres, a slanted way is longer; along them, as much longer as they turn less to it.
+    const double expected[] = {through, through * lean, through};
+    // A little further down than the hair reaches, in its middle. From point to point it ripples by 7 %: voxels are 2.7
+    // times as wide as the strands are apart.
+    const oracle::Lit lit = hair.lit();
+    const size_t all = oracle::voxels_of(lit.volume);
+    for (size_t i = 0; i < 3; ++i)
+    {
+        double sum = 0.0, worst = 0.0;
+        for (int k = 0; k < 400; ++k)
+        {
+            const Vec at(0.003 * (k % 20 - 9.5), -0.006, 0.003 * (k / 20 - 9.5));
+            const double tau =
+                oracle::depth_at(&lit.depth[i * all], lit.volume, lit.rays[i], oracle::in_voxels(at, lit.volume));
+            sum += tau / 400;
+            worst = std::max(worst, std::abs(tau / expected[i] - 1.0));
+        }
+        EXPECT_NEAR(sum, expected[i], 0.02 * expected[i]) << "light " << i;
+        EXPECT_LT(worst, 0.09) << "light " << i;
+    }
+}
+
+// What reaches the eye of white fur in a white surrounding is almost all of it.
+TEST(Look, AWhiteCoatInAWhiteSkyIsWhite)
+{
+    Random random(9);
+    std::vector<Tress> coat;
+    for (int s = 0; s < 4000; ++s)
+    {
+        Tress t;
+        const glm::dvec3 out = random.direction(), lean = glm::normalize(out + 0.3 * random.direction());
+        for (int k = 0; k < kNodes; ++k)
+            t.nodes.emplace_back(0.08 * out + 0.05 * double(k - 1) / (kNodes - 2) * lean);
+        t.root = t.tip = glm::vec3(1.0f);
+        t.width = 0.0012f;
+        coat.push_back(t);
+    }
+    Hair hair(coat);
+    const glm::vec3 eye(0.0f, 0.0f, 1.5f);
+    Lighting lighting = light_from({{0.0f, 0.0f, 1.0f}}, glm::vec3(1.0f));
+    lighting.suns[0].irradiance = glm::vec3(0.0f); // it tells how much lies before the eye
+    hair.light(lighting);
+    const std::vector<glm::vec3> colors = hair.colors(LOOK_DUAL_SCATTERING, eye);
+    const std::vector<float4> places = hair.values<float4>("places", hair.places());
+    const oracle::Lit lit = hair.lit();
+    std::vector<float> seen;
+    for (size_t i = 0; i < places.size(); ++i)
+        if (oracle::depth_at(lit.depth.data(), lit.volume, lit.rays[0],
+                             oracle::in_voxels(xyz(places[i]), lit.volume) + Vec(0.0, 0.0, 0.5)) < 0.7)
+            seen.push_back(colors[i].y);
+    ASSERT_GT(seen.size(), 1000u);
+    std::ranges::sort(seen);
+    const float bright = seen[seen.size() * 95 / 100], median = seen[seen.size() / 2];
+    EXPECT_GT(bright, 0.84f);
+    EXPECT_LT(bright, 1.02f);
+    EXPECT_GT(median, 0.65f);
+}
+
+double mean_change(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
+{
+    double change = 0.0, whole = 0.0;
+    for (size_t i = 0; i < a.size(); ++i)
+        change += double(std::abs(a[i].y - b[i].y)), whole += double(a[i].y);
+    return change / whole;
+}
+
+TEST(Look, NothingFlickersAsLightOrCameraTurn)
+{
+    Hair hair(tangle(300, 0.001f));
+    const auto turned = [](glm::vec3 v, double degrees)
+    { return glm::vec3(glm::angleAxis(degrees * 0.017453292519943295, glm::dvec3(0, 1, 0)) * glm::dvec3(v)); };
+    const glm::vec3 from(0.45f, 0.75f, 0.6f);
+    for (const int level : {LOOK_FAR_FIELD, LOOK_DUAL_SCATTERING})
+    {
+        double most_light = 0.0, most_eye = 0.0;
+        std::vector<glm::vec3> before;
+        for (int degrees = 0; degrees <= 8; ++degrees)
+        {
+            hair.light(light_from({turned(from, 45.0 + degrees)}, kSky)); // past where the sweep changes its axis
+            const std::vector<glm::vec3> now = hair.colors(level);
+            if (degrees > 0)
+                most_light = std::max(most_light, mean_change(before, now));
+            before = now;
+        }
+        for (int degrees = 1; degrees <= 8; ++degrees)
+        {
+            const std::vector<glm::vec3> now = hair.colors(level, turned(kEye, degrees));
+            most_eye = std::max(most_eye, mean_change(before, now));
+            before = now;
+        }
+        EXPECT_LT(most_light, 0.03) << "level " << level;
+        EXPECT_LT(most_eye, 0.03) << "level " << level;
+    }
+}
+
+// A strand combed down over a ball, lit from where it is seen: the white highlight lies nearer the tip than the
+// coloured one.
+TEST(Look, TheWhiteHighlightLiesNearerTheTips)
+{
+    Tress t;
+    for (int k = 0; k < kNodes; ++k)
+    {
+        const double down = (0.2 + 0.14 * double(k)) * 1.5707963267948966;
+        t.nodes.emplace_back(0.0, 0.1 * std::cos(down), 0.1 * std::sin(down));
+    }
+    t.root = t.tip = {1.0f, 1.0f, 0.0f}; // what is blue was reflected at the surface
+    t.width = 1e-5f;
+    HairParams params = plain_params();
+    params.look_roughness = 0.2f;
+    Hair hair({t}, params);
+    hair.light(light_from({{0.0f, 0.0f, 1.0f}}));
+    const std::vector<glm::vec3> colors = hair.colors(LOOK_FAR_FIELD, {0.0f, 0.0f, 100.0f});
+    size_t white = 0, colored = 0;
+    const auto inside = [&](size_t i) { return colors[i].x / 2.0f - colors[i].z / 1.5f; };
+    for (size_t i = 1; i + 1 < colors.size(); ++i)
+    {
+        white = colors[i].z > colors[white].z ? i : white;
+        colored = inside(i) > inside(colored) ? i : colored;
+    }
+    const std::vector<float4> places = hair.values<float4>("places", hair.places());
+    const auto down = [&](size_t i) { return std::atan2(places[i].z, places[i].y) * 57.29577951308232; };
+    // Where twice the strand's inclination is -4 and 8 degrees: two degrees behind the normal, and four before it.
+    EXPECT_NEAR(down(white), 92.0, 6.5); // places are 6 degrees apart
+    EXPECT_LT(down(colored) + 3.0, down(white));
+}
+
+TEST(Look, HostileHairIsNoNumberNowhere)
+{
+    const float nan = std::nanf("");
+    std::vector<Tress> tresses = tangle(20);
+    tresses[3].nodes[5] = glm::vec3(nan);
+    tresses[4].nodes.assign(kNodes, glm::vec3(0.1f, 0.0f, 0.0f)); // without any length
+    tresses[5].nodes[7] = glm::vec3(1e30f, 0.0f, -1e30f);
+    tresses[6].nodes[2] = glm::vec3(INFINITY, 0.0f, 0.0f);
+    for (int k = 0; k < kNodes; ++k)
+        tresses[7].nodes[size_t(k)] = glm::vec3(0.0f, 0.02f * float(k), 0.0f); // along the first light
+    tresses[8].width = 0.0f;
+    tresses[9].opacity = 0.0f;
+    tresses[10].width = 1.0f;
+    for (const float roughness : {0.0f, 1.0f})
+        for (const float ior : {1.05f, 3.0f})
+        {
+            HairParams params = plain_params();
+            params.look_roughness = params.look_azimuthal_roughness = roughness;
+            params.look_ior = ior;
+            Hair hair(tresses, params, true);
+            hair.light(light_from(kSixLights, kSky));
+            for (const int level : {LOOK_KARIS, LOOK_FAR_FIELD, LOOK_DUAL_SCATTERING})
+                for (const glm::vec3& eye : {kEye, glm::vec3(0.0f, 0.1f, 0.0f), glm::vec3(0.0f, 1e4f, 0.0f)})
+                {
+                    const std::vector<glm::vec3> colors = hair.colors(level, eye);
+                    const size_t each = size_t(hair.shading.volume().places);
+                    for (size_t i = 0; i < colors.size(); ++i)
+                        for (int c = 0; c < 3; ++c)
+                            if (i / each != 3 && i / each != 5 && i / each != 6)
+                            {
+                                ASSERT_GE(colors[i][c], 0.0f);
+                                ASSERT_LT(colors[i][c], 65000.0f) << "strand " << i / each << ", level " << level;
+                            }
+                }
+            for (const float value : hair.lit().depth)
+                ASSERT_TRUE(std::isfinite(value));
+            for (const float value : hair.lit().sky)
+                ASSERT_TRUE(std::isfinite(value));
+            for (const float4& c : hair.shading.lit(random_surfaces(40), glm::vec3(0.0f)))
+                ASSERT_TRUE(std::isfinite(c.x + c.y + c.z));
+        }
+}
+
+TEST(Look, NoHairNoSunAndNoLightAreNoError)
+{
+    Device as_gpu = with_width(1);
+    as_gpu.is_gpu = true;
+    for (const Device& device : {test_device(), as_gpu})
+        for (const size_t strands : {0, 1})
+        {
+            Hair hair(tangle(int(strands)), plain_params(), false, device);
+            hair.light(light_from({}, kSky));
+            for (const glm::vec3& color : hair.colors(LOOK_DUAL_SCATTERING))
+                EXPECT_GT(color.x, 0.0f);
+            EXPECT_GT(hair.shading.lit(random_surfaces(3), kEye)[0].x, 0.0f);
+            hair.light({});
+            for (const glm::vec3& color : hair.colors(LOOK_DUAL_SCATTERING))
+                EXPECT_EQ(color, glm::vec3(0.0f));
+            EXPECT_EQ(hair.shading.lit(random_surfaces(3), kEye)[0].x, 0.0f);
+            hair.light(light_from({{0.0f, 1.0f, 0.0f}}));
+            EXPECT_EQ(hair.colors(LOOK_KARIS).size(), hair.places());
+        }
+}
+
+} // namespace
+} // namespace coif
