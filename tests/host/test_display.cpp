@@ -162,9 +162,8 @@ TEST(Display, more_light_is_never_darker)
                 const float luminance = glm::dot(s, glm::vec3(0.2126f, 0.7152f, 0.0722f));
                 ASSERT_GE(luminance, brightest - 2e-6f) << choice << " at " << ev;
                 brightest = std::max(brightest, luminance);
-                if (color == glm::vec3(1.0f))
-                    for (int c = 0; c < 3; ++c)
-                        ASSERT_GE(s[c], before[c] - 2e-6f) << choice << " at " << ev;
+                for (int c = 0; c < 3 && color == glm::vec3(1.0f); ++c)
+                    ASSERT_GE(s[c], before[c] - 2e-6f) << choice << " at " << ev;
                 before = s;
             }
             EXPECT_GT(brightest, color == glm::vec3(1.0f) || choice != kNone ? 0.98f : 0.1f);
