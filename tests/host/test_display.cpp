@@ -143,8 +143,9 @@ TEST(Display, neutral_keeps_hues)
         for (const int choice : {kNeutral, kAgx, kNone})
         {
             const glm::vec3 s = shown_as(choice, glm::vec3(grey));
-            EXPECT_NEAR(s.x, s.y, 2e-5) << grey;
-            EXPECT_NEAR(s.z, s.y, 2e-5) << grey;
+            const double even = choice == kAgx ? 2e-4 : 2e-5; // shares of AgX' channels sum up to 1.0001
+            EXPECT_NEAR(s.x, s.y, even) << grey;
+            EXPECT_NEAR(s.z, s.y, even) << grey;
         }
     EXPECT_NEAR(linear(shown_as(kNeutral, glm::vec3(0.5f)).x), 0.46, 0.002);
 }
