@@ -260,7 +260,7 @@ std::vector<Row> measure_look(const Measuring& with)
                 simulation.solver().draw();
                 FrameInput frame = frame_input(simulation, camera);
                 frame.lighting.sky = lights.sky;
-                frame.samples = 16;
+                frame.samples = with.quick ? 4 : 16;
                 frame.transparent = true;
 
                 const Tracer tracer(traced_scene(frame));

@@ -28,6 +28,7 @@ static constexpr float kOff = 2e-5f;    // m that rays begin off a solid, so tha
 static constexpr int kAllLights = 2;    // bounces up to which each light is asked; later one, by chance
 static constexpr int kSafe = 3;         // bounces that no path is ended before, by chance
 static constexpr double kTrifle = 1e-6; // of its light that a path is ended with
+static constexpr int kMostSkipped = 64; // surfaces that a ray leaves strands by, before it comes into the next
 static constexpr uint32_t kAtOnce = 64; // samples of a pixel, at most: a stop waits for the end of a row
 
 uint32_t Accumulation::fewest() const { return samples.empty() ? 0 : *std::ranges::min_element(samples); }
@@ -57,6 +58,9 @@ struct Random
 struct Ray
 {
     glm::dvec3 from, way; // of unit length
+    // The strand that it comes out of is not met again before it is left behind, m.
+    size_t strand = SIZE_MAX;
+    double within = 0.0;
 };
 } // namespace
 
@@ -175,34 +179,35 @@ static void set_ray(RTCRay& to, const Ray& ray)
     to.mask = ~0u;
 }
 
+// What it enters first. Strands of hair that stand for several lie within each other: what counts is where a ray comes
+// into one, though it be in another, so that as much hair is met as there is.
 RTCRayHit Tracer::Embree::meet(const Ray& ray) const
 {
-    RTCRayHit hit = {};
-    set_ray(hit.ray, ray);
-    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    float near = 0.0f;
+    for (int skipped = 0;; ++skipped)
+    {
+        RTCRayHit hit = {};
+        set_ray(hit.ray, ray);
+        hit.ray.tnear = near;
+        hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene, &hit);
+        rtcIntersect1(scene, &hit);
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &hit);
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(scene, &context, &hit);
 #endif
-    return hit;
+        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID || hit.hit.geomID != strands_id || skipped == kMostSkipped)
+            return hit;
+        const double outwards = hit.hit.Ng_x * ray.way.x + hit.hit.Ng_y * ray.way.y + hit.hit.Ng_z * ray.way.z;
+        const bool own = hit.hit.primID / (of.points - 1) == ray.strand && hit.ray.tfar < ray.within;
+        if (outwards < 0.0 && !own)
+            return hit;
+        near = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) + 1e-7f;
+    }
 }
 
-bool Tracer::Embree::reaches(const Ray& ray) const
-{
-    RTCRay to;
-    set_ray(to, ray);
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded1(scene, &to);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &to);
-#endif
-    return to.tfar >= 0.0f;
-}
+bool Tracer::Embree::reaches(const Ray& ray) const { return meet(ray).hit.geomID == RTC_INVALID_GEOMETRY_ID; }
 
 // Two ways across a third, all of unit length.
 static void frame_of(const glm::dvec3& n, glm::dvec3& x, glm::dvec3& y)
@@ -273,19 +278,20 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
                 normal = glm::dot(normal, surface) < 0.0 ? -normal : surface;
             const glm::dvec3 albedo = between(of.albedo),
                              at = glm::dvec3(between(of.position)) + double(kOff) * surface;
-            light += share * from_lights(random, bounce,
-                                         [&](const glm::dvec3& way)
-                                         {
-                                             const double cosine = glm::dot(normal, way);
-                                             if (!(cosine > 0.0 && glm::dot(surface, way) > 0.0) || !reaches({at, way}))
-                                                 return glm::dvec3(0.0);
-                                             return albedo * (cosine / kPi);
-                                         });
+            light +=
+                share * from_lights(random, bounce,
+                                    [&](const glm::dvec3& way)
+                                    {
+                                        const double cosine = glm::dot(normal, way);
+                                        if (!(cosine > 0.0 && glm::dot(surface, way) > 0.0) || !reaches(Ray{at, way}))
+                                            return glm::dvec3(0.0);
+                                        return albedo * (cosine / kPi);
+                                    });
             glm::dvec3 x, y;
             frame_of(normal, x, y);
             const double across = random(), turn = 2.0 * kPi * random();
-            ray = {at, glm::normalize(std::sqrt(1.0 - across) * normal +
-                                      std::sqrt(across) * (std::cos(turn) * x + std::sin(turn) * y))};
+            ray = Ray{at, glm::normalize(std::sqrt(1.0 - across) * normal +
+                                         std::sqrt(across) * (std::cos(turn) * x + std::sin(turn) * y))};
             share *= albedo;
             if (!(glm::dot(ray.way, surface) > 0.0))
                 break; // into the solid, which only the smooth normal looks along
@@ -294,7 +300,7 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
         {
             alignas(16) float p[4], d[4];
             rtcInterpolate1(strands, met.hit.primID, met.hit.u, met.hit.v, RTC_BUFFER_TYPE_VERTEX, 0, p, d, nullptr, 4);
-            const glm::dvec3 middle(p[0], p[1], p[2]), way_on(d[0], d[1], d[2]);
+            const glm::dvec3 way_on(d[0], d[1], d[2]);
             const double radius = p[3], length = glm::length(way_on);
             glm::dvec3 along, side, other; // root to tip; towards the eye across that; the third
             along = length > 1e-12 ? way_on / length : glm::dvec3(0, 1, 0);
@@ -311,11 +317,11 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
             const glm::vec3* sigma = &of.absorption[strand * of.points + piece];
             const FibreNear fibre = {of.fibre, std::clamp(-glm::dot(surface, other), -1.0, 1.0),
                                      glm::dvec3(glm::mix(sigma[0], sigma[1], met.hit.u))};
-            // Most light comes through the fibre: what leaves it for `way` does so on that side.
+            const glm::dvec3 at = ray.from + double(met.ray.tfar) * ray.way;
             const auto leaving = [&](const glm::dvec3& way, double sin_i)
             {
                 const double across = std::sqrt(std::max(0.0, 1.0 - sin_i * sin_i));
-                return Ray{middle + way * (1.02 * radius / std::max(0.15, across)), way};
+                return Ray{at, way, strand, 2.5 * radius / std::max(0.1, across)};
             };
             light += share * from_lights(random, bounce,
                                          [&](const glm::dvec3& way)
