@@ -14,6 +14,7 @@
 #include "app/sequence.h"
 #include "app/sheet.h"
 #include "app/stress/stress.h"
+#include "app/traced/shoot.h"
 #include "sim/error.h"
 #include "sim/exchange/place.h"
 #include "sim/source.h"
@@ -108,14 +109,19 @@ static int run_morph(const Options& options, const std::string& to, double at)
     return 0;
 }
 
-static int run_shot(const Options& options, const ShotOptions& shot, const SequenceOptions& sequence)
+static int run_shot(const Options& options, const ShotOptions& shot, const SequenceOptions& sequence,
+                    std::optional<int> traced)
 {
+    if (traced && sequence.turntable != 0 && sequence.view < 0)
+        throw fail("--traced {}: takes one picture; of a turntable, say which --view", *traced);
     if (sequence.wanted() && sequence.view < 0)
         return shoot_sequence(options, shot, sequence);
     if (!film_format(options.output).empty())
         throw fail("-o {}: a film is of many pictures; say --frames FIRST:LAST or --turntable VIEWS", options.output);
     const double turn = sequence.view < 0 ? 0.0 : frames_of(sequence, options.seconds)[0].turn;
-    save_png(options.output, take_shot(options, shot, turn));
+    if (traced)
+        return shoot_traced(options, shot, *traced, turn);
+    save_shot(options, shot, turn);
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
 }
@@ -210,7 +216,10 @@ static int command(std::vector<std::string> words, bool only_look)
     CLI::App* edit_command = with_device(common(app.add_subcommand("edit", "Open the editor (the default)"), false));
 
     CLI::App* shot_command = with_device(common(app.add_subcommand("shot", "Draw a picture without a window"), true));
-    shot_command->add_option("-o,--output", options.output, "PNG to write; of many pictures also .mp4, .webm or .gif")
+    shot_command
+        ->add_option(
+            "-o,--output", options.output,
+            "PNG to write, or .hdr: light before any display transform; of many pictures also .mp4, .webm or .gif")
         ->required();
     shot_command->add_option("--size", size, "WIDTHxHEIGHT in pixels, up to 8192 each")->capture_default_str();
     const auto with_picture = [&](CLI::App* command)
@@ -218,15 +227,20 @@ static int command(std::vector<std::string> words, bool only_look)
         command->add_option("--motion", options.motion, "Motion to play: a file, or one of coif's")
             ->capture_default_str();
         command->add_option("--camera", shot.camera, "front, left, right, back, top, or yaw,pitch[,distance] (deg, m)");
-        command->add_option("--samples", shot.samples, "Pictures averaged against jagged edges")->capture_default_str();
+        command->add_option("--samples", shot.samples,
+                            "Pictures averaged against jagged edges; 16, or 64 where lens or shutter blurs");
         return command->add_option("--time", options.seconds, "When to take it, s")->capture_default_str();
     };
     CLI::Option* shot_time = with_picture(shot_command);
+    std::optional<int> traced;
+    CLI::Option* shot_traced = shot_command->add_option(
+        "--traced", traced, "A path-traced still of so many samples a pixel; more of them go on from where it ended");
     shot_command->add_flag("--transparent", shot.transparent, "No backdrop: alpha instead");
     SequenceOptions sequence;
     shot_command
         ->add_option("--frames", sequence.frames, "FIRST:LAST of the motion, both too: numbered pictures, X_%04d.png")
-        ->excludes(shot_time);
+        ->excludes(shot_time)
+        ->excludes(shot_traced);
     shot_command->add_option("--fps", sequence.fps, "Frames a second of --frames and of films")->capture_default_str();
     shot_command
         ->add_option("--turntable", sequence.turntable, "Views in a turn about the head, one a picture or a frame")
@@ -307,6 +321,9 @@ static int command(std::vector<std::string> words, bool only_look)
                               "Fewer points: under a minute instead of a quarter of an hour");
     measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
         ->delimiter(',');
+    measure_command->add_flag_callback(
+        "--look", [&] { measured.only.emplace_back("look"); },
+        "Only the levels of the look against traced light, as --only look");
     with_processes(measure_command, "Scenes measured at a time, each by a process of its own; only with --untimed");
     measure_command->add_flag("--untimed", measured.untimed, "No prices in it, so that equal work gives equal bytes");
     measure_command->add_option(
@@ -426,7 +443,7 @@ static int command(std::vector<std::string> words, bool only_look)
     if (is_batch(*batch))
         return run_batch(*batch, [](const std::vector<std::string>& line) { command(line, true); });
     if (shot_command->parsed())
-        return run_shot(options, shot, sequence);
+        return run_shot(options, shot, sequence, traced);
     if (export_command->parsed())
         return export_style(options, exported, sequence);
     if (sheet_command->parsed())

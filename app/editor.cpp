@@ -1,7 +1,9 @@
 #include "app/editor.h"
 
+#include "app/display.h"
 #include "app/folders.h"
 #include "app/import.h"
+#include "app/lens.h"
 #include "app/lettering.h"
 #include "app/sequence.h"
 #include "sim/error.h"
@@ -20,7 +22,7 @@ namespace coif
 static constexpr int kPanelWidth = 400;            // pixels of the window
 static constexpr int kMostSteps = 4;               // in one frame; what is over is dropped and counted
 static constexpr double kSettle = 1.5;             // s that a style lives before it is first seen
-static constexpr int kRefined = 16, kAtOnce = 2;   // pictures of what stands still; of them in one frame
+static constexpr int kAtOnce = 2;                  // pictures of what stands still that are drawn in one frame
 static constexpr Uint32 kIdleWait = 50;            // ms between looks at a paused window
 static constexpr int kWidth = 1280, kHeight = 720; // of a fresh window
 
@@ -282,15 +284,22 @@ std::filesystem::path Editor::screenshot()
     guarded(
         [&]
         {
-            const auto picture = [&](Simulation& simulation, Renderer& renderer, int wide)
+            const auto taken = [&](Simulation& simulation)
             {
                 simulation.solver().draw();
                 FrameInput input = frame_input(simulation, camera_);
-                input.samples = 16;
+                input.samples = good_samples(input.params);
                 input.transparent = transparent_;
-                return renderer.picture(input, wide, height);
+                return input;
             };
-            if (beside_.simulation)
+            const auto picture = [&](Simulation& simulation, Renderer& renderer, int wide)
+            { return renderer.picture(taken(simulation), wide, height); };
+            if (beside_.simulation && is_linear(file))
+                throw fail("{}: two halves side by side are written as .png alone", file.string());
+            if (is_linear(file))
+                save_hdr(file, renderer_->linear_picture(taken(*simulation_), width, height),
+                         display_of(simulation_->params()).gain);
+            else if (beside_.simulation)
             {
                 Image both{width, height, std::vector<unsigned char>(size_t(4) * size_t(width) * size_t(height))};
                 const int half = std::max(1, width / 2);
@@ -347,7 +356,8 @@ void Editor::advance(double seconds)
         stepped = simulation_->advance(seconds, hand_, kMostSteps) > 0;
     if (beside_.simulation)
         follow();
-    if (played && !simulation_->playing() && held_.what != Grab::BRUSH && held_.what != Grab::CUT)
+    if (played && !simulation_->playing() && held_.what != Grab::BRUSH && held_.what != Grab::CUT &&
+        held_.what != Grab::LIGHT)
         held_.what = Grab::NONE; // the script has moved what the hand held
     if (held_.what != Grab::MOVE_HEAD && held_.what != Grab::TURN_HEAD)
         hand_ = simulation_->hand();
@@ -374,7 +384,7 @@ void Editor::note_resets()
 bool Editor::frame()
 {
     SDL_Event event;
-    const bool refining = refined_ < kRefined;
+    const bool refining = refined_ < good_samples(style_.params);
     if (redraw_ <= 0 &&
         SDL_WaitEventTimeout(&event, !refining && (paused_ || simulation_->solver().asleep()) ? kIdleWait : 1))
         handle(event);
@@ -390,7 +400,7 @@ bool Editor::frame()
         redraw_ = std::max(redraw_, kRedraw);
     keep_settings();
     const bool still = redraw_ <= 0 && (paused_ || simulation_->solver().asleep());
-    if (closed_ || (redraw_ <= 0 && !(still && refined_ < kRefined)))
+    if (closed_ || (redraw_ <= 0 && !(still && refined_ < good_samples(style_.params))))
         return !closed_;
     redraw_ = std::max(redraw_ - 1, 0);
     frame_ms_ = frames_++ == 0 ? 1e3 * seconds : frame_ms_ + 0.1 * (1e3 * seconds - frame_ms_);
@@ -413,8 +423,8 @@ bool Editor::frame()
         ImGui::GetIO().MousePos = ImVec2(float(x), float(y));
     }
     ImGui::NewFrame();
-    draw_ui();                                                 // may change the style, which shows in this very frame
-    if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE) // a drag is one edit
+    draw_ui(); // may change the style, which shows in this very frame
+    if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE && !brightened_) // a drag is one edit
         note_edit(history_, style_, saved_);
     ImGui::Render();
 

@@ -3,6 +3,7 @@
 #include "app/export.h"
 #include "app/history.h"
 #include "app/leeway.h"
+#include "app/light_globe.h"
 #include "app/method_trial.h"
 #include "app/options.h"
 #include "app/panel.h"
@@ -126,6 +127,8 @@ class Editor
     int refined() const { return refined_; } // pictures that the one on screen is the mean of
     const Waiting& waiting() const { return *waiting_; }
     const Exporting& exporting() const { return exporting_; }
+    std::vector<Light> lights() const; // as they shine
+    glm::dvec2 light_place(size_t light) const { return place_of(globe(), lights().at(light).direction); }
 
   private:
     struct Close
@@ -188,6 +191,17 @@ class Editor
     void draw_brush_aim();
     void draw_region_aim();
     void end_stroke(); // what the mouse held is let go: one edit, with a name of its own
+    LightGlobe globe() const;
+    void change_light(size_t light, const std::function<void(Light&)>& change); // of the style, with its lights its own
+    std::optional<size_t> light_under(double x, double y) const;
+    bool press_light(double x, double y);
+    void drag_light(double x, double y);
+    void brighten_light(size_t light, double notches);
+    void show_lights(bool on); // while the key is held
+    void take_own_lights();    // of the file that look.lights names
+    void draw_lights();
+    void draw_lights_dialog();
+    void save_lights_as(const std::string& file); // in the folder `lights` beside the style
     void show_export(bool on);
     void draw_export();
     void ask_export_words();
@@ -243,6 +257,9 @@ class Editor
     Brush brush_;
     Stroke stroke_;
     bool brushing_ = false, cutting_ = false;         // the window of brushes; scissors instead of one
+    bool lights_shown_ = false;                       // for the mouse to take
+    bool brightened_ = false;                         // by the wheel, which is one edit until the key is let go
+    std::string lights_name_;                         // to save them by
     char variant_name_[64] = "";                      // for a snapshot
     std::map<std::string, WidgetPlace> brush_places_; // of the last frame
     int held_left_ = 0;                               // pixel that the picture which is held begins at

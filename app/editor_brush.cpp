@@ -89,6 +89,8 @@ void Editor::end_stroke()
         note_edit(history_, style_, saved_, "cut straight");
     else if (what == Grab::COLLIDER)
         note_edit(history_, style_, saved_, fmt::format("moved collider {}", held_.collider + 1));
+    else if (what == Grab::LIGHT)
+        note_edit(history_, style_, saved_, "turned a light");
     else if (what == Grab::TIE)
         note_edit(history_, style_, saved_, fmt::format("moved tie {}", style_.host.ties.at(held_.tie).name));
 }

@@ -46,7 +46,7 @@ std::vector<fs::path> Editor::watched_files()
                 if (written.empty())
                     named_.erase(info.path());
                 else
-                    named_[info.path()] = resolve_path(style_, info.path(), written, data_folder() / "assets");
+                    named_[info.path()] = named_file(style_, info.path(), written);
             }
             catch (const Error&)
             {
@@ -74,16 +74,19 @@ void Editor::look_at_files()
         return;
     next_look_ = now + kLookEvery;
     watch_.set(watched_files());
-    bool style = false, meshes = false, motion = false, kernels = false, shaders = false, compiled_in = false;
+    bool style = false, meshes = false, lights = false, motion = false, kernels = false, shaders = false,
+         compiled_in = false;
     std::string vanished;
     std::error_code error;
     const std::vector<fs::path> beside = files_beside(style_);
     for (const fs::path& file : watch_.changed())
     {
         const bool named = std::ranges::any_of(named_, [&](const auto& entry) { return entry.second == file; });
+        const bool of_lights = named_.contains("look.lights") && named_["look.lights"] == file;
         const bool there = fs::exists(file, error);
         style |= file == style_.file || (there && std::ranges::find(beside, file) != beside.end());
-        meshes |= named && there;
+        lights |= of_lights && there;
+        meshes |= named && there && !of_lights;
         motion |= file == motion_file(motion_) && there;
         if (!there && file != style_.file)
             vanished = file.string();
@@ -108,6 +111,14 @@ void Editor::look_at_files()
     };
     if (meshes)
         again("the meshes", [&] { simulation_->set_style(style_, true); });
+    if (lights)
+        again("the lights",
+              [&]
+              {
+                  simulation_->reload_lights();
+                  if (beside_.simulation)
+                      beside_.simulation->reload_lights();
+              });
     if (motion)
         again("the motion",
               [&]

@@ -55,6 +55,9 @@ void Editor::handle_key(const SDL_Keysym& key)
     case SDLK_c:
         compare(true);
         break;
+    case SDLK_l:
+        lights_shown_ = true;
+        break;
     case SDLK_a:
         show_beside(!beside_.shown);
         break;
@@ -124,7 +127,7 @@ void Editor::handle_mouse(const SDL_Event& event)
         const double x = event.button.x - held_left_, y = event.button.y;
         const SDL_Keymod mod = SDL_GetModState();
         redraw_ = kRedraw;
-        if (event.button.button == SDL_BUTTON_LEFT && !of_b && press_brush(x, y))
+        if (event.button.button == SDL_BUTTON_LEFT && !of_b && (press_light(x, y) || press_brush(x, y)))
             return;
         if (event.button.button == SDL_BUTTON_LEFT && event.button.clicks == 2)
             frame_head(camera_, *simulation_);
@@ -144,7 +147,14 @@ void Editor::handle_mouse(const SDL_Event& event)
         end_stroke();
     }
     else if (event.type == SDL_MOUSEWHEEL)
-        zoom(camera_, event.wheel.y);
+    {
+        int x = 0, y = 0;
+        SDL_GetMouseState(&x, &y);
+        if (const auto light = lights_shown_ ? light_under(x, y) : std::nullopt)
+            brighten_light(*light, event.wheel.y);
+        else
+            zoom(camera_, event.wheel.y);
+    }
     else if (event.type == SDL_MOUSEMOTION)
     {
         const double x = event.motion.x - held_left_, y = event.motion.y;
@@ -154,6 +164,8 @@ void Editor::handle_mouse(const SDL_Event& event)
             pan(camera_, event.motion.xrel, event.motion.yrel, view_height_);
         else if (held_.what == Grab::BRUSH)
             stroke(x, y, false);
+        else if (held_.what == Grab::LIGHT)
+            drag_light(x, y);
         else if (held_.what == Grab::COLLIDER)
         {
             Collider& collider = style_.host.colliders.at(held_.collider);
@@ -201,6 +213,8 @@ void Editor::handle(const SDL_Event& event)
     case SDL_KEYUP:
         if (event.key.keysym.sym == SDLK_c)
             compare(false);
+        if (event.key.keysym.sym == SDLK_l)
+            show_lights(false);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEWHEEL:

@@ -38,6 +38,7 @@ static const char kHelp[] = "drag the head         move it\n"
                             "e, ctrl-e             export for other tools\n"
                             "b                     browse presets\n"
                             "a                     another style beside, morph\n"
+                            "l, held               lights: drag them, wheel for brighter\n"
                             "s                     shape: brushes, cut, freeze, variants\n"
                             "[ ]                   a smaller, a larger brush\n"
                             "alt-click             takes the value under the brush\n"
@@ -71,6 +72,7 @@ void Editor::draw_ui()
         ImGui::EndChild();
         ImGui::End();
     }
+    draw_lights();
     draw_status();
     if (show_history_)
         draw_history();
@@ -85,6 +87,7 @@ void Editor::draw_ui()
     if (exporting_.shown)
         draw_export();
     draw_files();
+    draw_lights_dialog();
     draw_dialogs();
 }
 

@@ -7,16 +7,20 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
+#include <algorithm>
 #include <unistd.h>
 
 namespace coif
 {
 
+static void append(void* to, void* data, int size)
+{
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), size_t(size));
+}
+
 void save_png(const std::filesystem::path& file, const Image& image)
 {
     std::string bytes;
-    const auto append = [](void* to, void* data, int size)
-    { static_cast<std::string*>(to)->append(static_cast<const char*>(data), size_t(size)); };
     if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.pixels.data(), 4 * image.width))
         throw fail("{}: the picture could not be encoded", file.string());
     write_file(file, bytes);
@@ -34,6 +38,23 @@ Image load_png(const std::filesystem::path& file)
     image.pixels.assign(pixels, pixels + size_t(4) * size_t(image.width) * size_t(image.height));
     stbi_image_free(pixels);
     return image;
+}
+
+void save_hdr(const std::filesystem::path& file, const LinearImage& linear, float gain)
+{
+    constexpr float kMost = 1e37f; // that the format's exponent holds
+    std::vector<float> light;
+    light.reserve(linear.pixels.size() / 4 * 3);
+    for (size_t i = 0; i + 3 < linear.pixels.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c)
+        {
+            const float l = gain * linear.pixels[i + c];
+            light.push_back(l > 0.0f ? std::min(l, kMost) : 0.0f); // what is no number is black
+        }
+    std::string bytes;
+    if (!stbi_write_hdr_to_func(append, &bytes, linear.width, linear.height, 3, light.data()))
+        throw fail("{}: the picture could not be encoded", file.string());
+    write_file(file, bytes);
 }
 
 void check_folder(const std::filesystem::path& file)

@@ -1,5 +1,6 @@
 #include "app/panel.h"
 
+#include "app/panel_lights.h"
 #include "app/panel_lists.h"
 #include "app/randomise.h"
 #include "sim/error.h"
@@ -270,6 +271,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::InputTextWithHint("##filter", "find a parameter, by its name or what it does", state.filter,
                              sizeof state.filter);
+    state.places["filter"] = last_widget();
     changed |= draw_chance(style, state);
     const float lock_width = ImGui::GetFrameHeight() * 0.8f;
     for (const ParamInfo& info : param_table())
@@ -303,7 +305,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         if (info.kind == Kind::LIST)
         {
             ImGui::PushID(path.c_str());
-            changed |= draw_list(style.host, info);
+            changed |= draw_list(style.host, info, state);
             ImGui::PopID();
             continue;
         }
@@ -313,7 +315,9 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         ImGui::SetNextItemWidth(ImGui::GetWindowWidth() * 0.5f);
         const bool unread = !is_read(info, style.params);
         ImGui::BeginDisabled(unread);
-        changed |= info.kind == Kind::TEXT    ? draw_text(style, info, id.c_str())
+        const bool lights = path == "look.lights";
+        changed |= lights                     ? draw_light_chooser(style, state, id.c_str())
+                   : info.kind == Kind::TEXT  ? draw_text(style, info, id.c_str())
                    : info.kind == Kind::SHAPE ? draw_shape(style, info, id.c_str())
                                               : draw_number(style, info, id.c_str());
         const WidgetPlace row = state.places[path] = last_widget();
@@ -362,11 +366,13 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
                 ImGui::TextDisabled("ctrl-click to type");
             else if (info.kind == Kind::VECTOR)
                 ImGui::TextDisabled("drag: alt is finer, shift coarser; double click to type");
-            else if (info.kind == Kind::TEXT)
+            else if (info.kind == Kind::TEXT && !lights)
                 ImGui::TextDisabled("taken with the return key");
             ImGui::PopTextWrapPos();
             ImGui::EndTooltip();
         }
+        if (lights)
+            draw_light_buttons(style, state);
         ImGui::PopID();
     }
     if (!found)

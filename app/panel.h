@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace coif
 {
@@ -28,6 +29,14 @@ struct PanelState
     int seed = 1;                              // of the next throw
     float amount = 0.3f;                       // how far it goes: a share of the sliders
     std::string done;                          // what the last change was, where it has a name of its own
+    size_t light = 0;                          // the chosen one
+    std::vector<std::string> light_names;      // of files, while they are offered
+    enum
+    {
+        NOTHING,
+        EDIT_LIGHTS,
+        SAVE_LIGHTS
+    } asked = NOTHING; // of the lights, by a button
 };
 
 // One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the

@@ -62,7 +62,8 @@ struct FieldEditor
     }
     void number(const char* name, float& value, Limits limits, bool = false)
     {
-        const bool wide = limits.min > 0.0f && limits.max > 40.0f * limits.min;
+        const bool wide =
+            limits.min > 0.0f ? limits.max > 40.0f * limits.min : limits.min == 0.0f && limits.max >= 100.0f;
         changed |= ImGui::SliderFloat(name, &value, limits.min, limits.max,
                                       *limits.unit ? fmt::format("%.4g {}", limits.unit).c_str() : "%.4g",
                                       ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
@@ -77,8 +78,8 @@ struct FieldEditor
     }
     void point(const char* name, glm::vec3& value, Limits limits, bool = false)
     {
-        changed |=
-            ImGui::DragFloat3(name, &value.x, 0.001f, limits.min, limits.max, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
+        changed |= ImGui::DragFloat3(name, &value.x, 0.001f, limits.min, limits.max,
+                                     fmt::format("%.3f {}", limits.unit).c_str(), ImGuiSliderFlags_AlwaysClamp);
     }
     void optional_point(const char* name, std::optional<glm::vec3>& value, Limits limits)
     {
@@ -207,13 +208,16 @@ static bool add_entry(std::vector<Collider>& list, size_t most)
     return true;
 }
 
-std::string unused_region(const std::vector<Region>& regions)
+// "light 1", or with the first number that none has yet.
+template <typename Entry> static std::string unused_name(const std::vector<Entry>& list, const char* kind)
 {
     for (int i = 1;; ++i)
-        if (const std::string name = fmt::format("region {}", i);
-            std::ranges::find(regions, name, &Region::name) == regions.end())
+        if (const std::string name = fmt::format("{} {}", kind, i);
+            std::ranges::find(list, name, &Entry::name) == list.end())
             return name;
 }
+
+std::string unused_region(const std::vector<Region>& regions) { return unused_name(regions, "region"); }
 
 static bool add_entry(std::vector<Region>& list, size_t most)
 {
@@ -256,7 +260,7 @@ static bool add_entry(std::vector<Light>& list, size_t most)
     if (list.size() >= most || !ImGui::Button("add a light"))
         return false;
     Light light;
-    light.name = fmt::format("light {}", list.size() + 1);
+    light.name = unused_name(list, "light");
     list.push_back(light);
     return true;
 }
@@ -282,6 +286,9 @@ static std::string title_of(const ScalpMap& map, size_t) { return "map of " + ma
 template <typename Entry>
 static void keep_with_neighbors(HostParams& host, std::vector<Entry>& list, size_t i, const Entry& before, bool changed)
 {
+    if constexpr (std::is_same_v<Entry, Light>)
+        if (!points_somewhere(list[i].direction))
+            list[i] = before;
     if constexpr (std::is_same_v<Entry, Region>)
     {
         Region& region = list[i];
@@ -297,9 +304,23 @@ static void keep_with_neighbors(HostParams& host, std::vector<Entry>& list, size
     }
 }
 
-bool draw_list(HostParams& host, const ParamInfo& info)
+// Of lights with a mark at the one that the mouse turns where it takes none.
+template <typename Entry> static void draw_title(const Entry& entry, size_t i, PanelState& state)
 {
-    const size_t most = info.group == std::string_view("collider") ? MOST_COLLIDERS / 2 : 64;
+    const std::string title = title_of(entry, i);
+    if constexpr (std::is_same_v<Entry, Light>)
+    {
+        if (ImGui::RadioButton(fmt::format("{}###chosen", title).c_str(), state.light == i))
+            state.light = i;
+        state.places[fmt::format("light[{}]", i)] = last_widget();
+    }
+    else
+        ImGui::TextUnformatted(title.c_str());
+}
+
+static bool draw_entries(HostParams& host, const ParamInfo& info, PanelState& state)
+{
+    const size_t most = most_entries(info);
     return with_list(host, info,
                      [&](auto& list)
                      {
@@ -307,7 +328,7 @@ bool draw_list(HostParams& host, const ParamInfo& info)
                          for (size_t i = 0; i < list.size(); ++i)
                          {
                              ImGui::PushID(int(i));
-                             ImGui::TextUnformatted(title_of(list[i], i).c_str());
+                             draw_title(list[i], i, state);
                              explain(info.help);
                              ImGui::SameLine();
                              const bool remove = ImGui::SmallButton("remove");
@@ -330,6 +351,17 @@ bool draw_list(HostParams& host, const ParamInfo& info)
                          ImGui::PopID();
                          return changed;
                      });
+}
+
+bool draw_list(HostParams& host, const ParamInfo& info, PanelState& state)
+{
+    const bool replaced = info.group == std::string_view("light") && !host.look_lights.empty();
+    if (replaced)
+        ImGui::TextDisabled("%s shines in their place", host.look_lights.c_str());
+    ImGui::BeginDisabled(replaced);
+    const bool changed = draw_entries(host, info, state);
+    ImGui::EndDisabled();
+    return changed;
 }
 
 } // namespace coif

@@ -1,5 +1,7 @@
 #include "app/renderer.h"
 
+#include "app/display.h"
+#include "app/lens.h"
 #include "app/rasteriser.h"
 #include "app/shading.h"
 #include "sim/error.h"
@@ -78,7 +80,7 @@ FrameInput frame_input(const Simulation& simulation, const Camera& camera)
     frame.guide_positions = solver.guide_positions();
     frame.optical_depth = solver.optical_depth();
     frame.params = simulation.params();
-    frame.lighting = lighting_of(simulation.params(), simulation.style().host);
+    frame.lighting = simulation.lighting();
     frame.camera = camera;
     frame.colors = strand_colors(simulation, frame.drawn_positions, frame.guide_positions);
     return frame;
@@ -107,11 +109,13 @@ static void attribute(GLuint index, GLint size, GLsizei stride, size_t offset)
 Renderer::Renderer(const std::filesystem::path& shader_folder)
     : shader_folder_(shader_folder), programs_(std::make_unique<Programs>(shader_folder))
 {
-    for (GLuint* buffer : {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_,
-                           &index_buffer_, &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_,
-                           &guide_buffer_, &ring_buffer_, &ring_indices_, &braid_buffer_, &solid_colors_})
+    for (GLuint* buffer :
+         {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_, &index_buffer_,
+          &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_, &guide_buffer_, &ring_buffer_,
+          &ring_indices_, &braid_buffer_, &ground_buffer_, &ground_indices_, &solid_colors_})
         *buffer = make_buffer();
-    for (GLuint* array : {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &guide_array_, &empty_array_})
+    for (GLuint* array :
+         {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &ground_array_, &guide_array_, &empty_array_})
         *array = make_array();
 
     const std::pair<GLuint, size_t> blocks[] = {{frame_block_, sizeof(FrameBlock)},
@@ -174,6 +178,12 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
     make_rings();
 
+    glBindVertexArray(ground_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, ground_buffer_);
+    attribute(0, 3, 7 * sizeof(float), 0);
+    attribute(1, 3, 7 * sizeof(float), 3 * sizeof(float));
+    attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
+
     glGenTextures(1, &depth_texture_);
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -227,9 +237,10 @@ Renderer::~Renderer()
     }
     for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
                           mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_,
-                          ring_buffer_, ring_indices_, braid_buffer_, solid_colors_})
+                          ring_buffer_, ring_indices_, braid_buffer_, ground_buffer_, ground_indices_, solid_colors_})
         glDeleteBuffers(1, &buffer);
-    for (GLuint array : {strand_array_, mesh_array_, sphere_array_, ring_array_, guide_array_, empty_array_})
+    for (GLuint array :
+         {strand_array_, mesh_array_, sphere_array_, ring_array_, ground_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
     for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_,
                            braid_texture_, rastered_texture_, shades_texture_})
@@ -306,7 +317,6 @@ void Renderer::draw_solids(const FrameInput& frame)
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     glUniform1i(program.uniform("optical_depth"), 0);
     glUniform1i(program.uniform("worked_out"), shaded_);
-    colors_at_ = 0;
 
     const float4 skin = params.head_color;
     glUniform4f(program.uniform("albedo"), skin.x, skin.y, skin.z, params.head_scalp_tint);
@@ -429,23 +439,29 @@ void Renderer::draw_guides(const FrameInput& frame)
     glDrawArrays(GL_LINES, 0, GLsizei(lines.size() / 4));
 }
 
-void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter)
+void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter,
+                    glm::vec2 lens)
 {
     const Solver& solver = frame.simulation->solver();
     const StepInfo& info = solver.info();
-    const glm::vec3 eye(frame.camera.position() - solver.head().origin);
+    const glm::vec3 middle(frame.camera.position() - solver.head().origin);
     const glm::vec3 target(frame.camera.target - solver.head().origin);
+    const glm::vec3 forward = glm::normalize(target - middle);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)));
+    const glm::vec3 aside = lens.x * right + lens.y * glm::cross(right, forward), eye = middle + aside;
     const float near = float(frame.camera.distance) * 0.02f, far = float(frame.camera.distance) * 4.0f + 20.0f;
     const float tangent = std::tan(0.5f * float(frame.camera.fov));
-    // The part of the whole picture's frustum, moved by the jitter in pixels.
+    // The part of the whole picture's frustum, moved by the jitter in pixels, and sheared so that from all of the lens
+    // the same is seen where it is in focus.
     const float pixel = 2.0f * tangent / float(whole_height); // at a distance of one
-    const float left = (float(part.x) + jitter.x - 0.5f * float(whole_width)) * pixel;
-    const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel;
+    const float focus = frame.params.camera_focus > 0.0f ? frame.params.camera_focus : float(frame.camera.distance);
+    const float left = (float(part.x) + jitter.x - 0.5f * float(whole_width)) * pixel - lens.x / focus;
+    const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel - lens.y / focus;
     const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
                                               (bottom + float(part.height) * pixel) * near, near, far);
     shade(frame, eye);
     FrameBlock block;
-    block.view_projection = projection * glm::lookAt(eye, target, glm::vec3(0, 1, 0));
+    block.view_projection = projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0));
     block.camera_position = F4(eye.x, eye.y, eye.z, pixel);
     block.head_row0 = info.head_row0;
     block.head_row1 = info.head_row1;
@@ -472,10 +488,16 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }
     glEnable(GL_DEPTH_TEST);
+    colors_at_ = 0;
+    draw_ground(frame, programs_->surface, eye);
     draw_solids(frame);
     const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
     if (strands && !rasterised)
+    {
+        if (lens != glm::vec2(0.0f))
+            upload_order(frame, eye, forward); // the head hides other strands from here
         draw_strands(frame);
+    }
     if (frame.params.render_show != 0)
         draw_guides(frame);
     glDisable(GL_DEPTH_TEST);
@@ -500,15 +522,7 @@ static int multisamples(int choice)
     return std::min(wanted, int(most));
 }
 
-// Offsets within a pixel, in [-1/2, 1/2], that fill it evenly however many are taken: the R2 sequence (Roberts 2018).
-static glm::vec2 jitter_of(int sample)
-{
-    const double a = 0.7548776662466927, b = 0.5698402909980532;
-    const double x = 0.5 + a * sample, y = 0.5 + b * sample;
-    return glm::vec2(float(x - std::floor(x) - 0.5), float(y - std::floor(y) - 0.5));
-}
-
-GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
+const Renderer::Target& Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
 {
     const int samples = multisamples(frame.params.render_multisample);
     const bool depth_is_read = method_of(frame.params) == BY_OPENCL;
@@ -516,10 +530,10 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
     prepare(scene_, part.width, part.height, samples, GL_RGBA16F, depth_format);
     if (samples > 0)
         prepare(single_, part.width, part.height, 0, GL_RGBA16F, depth_is_read ? depth_format : 0);
-    const GLuint one_sample = samples > 0 ? single_.texture : scene_.texture;
-    if (frame.samples == 1 && frame.before == 0)
+    const Target& one_sample = samples > 0 ? single_ : scene_;
+    if (frame.samples == 1 && frame.before == 0 && frame.first < 0)
     {
-        draw(frame, whole_width, whole_height, part, glm::vec2(0.0f));
+        draw(frame, whole_width, whole_height, part, glm::vec2(0.0f), glm::vec2(0.0f));
         return one_sample;
     }
     prepare(sum_, part.width, part.height, 0, GL_RGBA32F);
@@ -529,35 +543,53 @@ GLuint Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
         glClear(GL_COLOR_BUFFER_BIT);
     }
-    const float all = float(frame.before + frame.samples);
+    const float all = float(frame.before + frame.samples), lens = float(lens_radius(frame.params));
     for (int i = 0; i < frame.samples; ++i)
     {
-        draw(frame, whole_width, whole_height, part, jitter_of(frame.before + i));
+        const int n = std::max(frame.first, 0) + frame.before + i;
+        draw(frame, whole_width, whole_height, part, place_in_pixel(n), lens * place_on_disc(n));
         glBindFramebuffer(GL_FRAMEBUFFER, sum_.framebuffer);
         glEnable(GL_BLEND);
         glBlendColor(0.0f, 0.0f, 0.0f, i == 0 ? float(frame.before) / all : 1.0f); // what is there gives way once
         glBlendFunc(GL_ONE, GL_CONSTANT_ALPHA);
         glUseProgram(programs_->add.id());
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, one_sample);
+        glBindTexture(GL_TEXTURE_2D, one_sample.texture);
         glUniform1i(programs_->add.uniform("picture"), 0);
         glUniform1f(programs_->add.uniform("share"), 1.0f / all);
         glBindVertexArray(empty_array_);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDisable(GL_BLEND);
     }
-    return sum_.texture;
+    return sum_;
 }
 
-void Renderer::resolve(GLuint texture, GLuint framebuffer, Part part, int left)
+// Reads what the bound framebuffer holds into its place of the whole picture.
+template <typename Picture> static void put_part(GLenum type, int x, int y, int width, int height, Picture& picture)
 {
+    const auto values = [](int w, int h) { return size_t(4) * size_t(w) * size_t(h); };
+    picture.pixels.resize(values(picture.width, picture.height));
+    decltype(picture.pixels) part(values(width, height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, type, part.data());
+    for (int row = 0; row < height; ++row) // GL's first row is the lowest
+        std::copy_n(&part[values(row, width)], values(1, width),
+                    &picture.pixels[values(picture.height - 1 - y - row, picture.width) + values(x, 1)]);
+}
+
+void Renderer::resolve(const FrameInput& frame, const Target& light, GLuint framebuffer, Part part, int left)
+{
+    const Display display = display_of(frame.params);
+    const ShaderProgram& program = programs_->show;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(left, 0, part.width, part.height);
-    glUseProgram(programs_->show.id());
-    glUniform1i(programs_->show.uniform("left"), left);
+    glUseProgram(program.id());
+    glUniform1i(program.uniform("left"), left);
+    glUniform1f(program.uniform("gain"), display.gain);
+    glUniform1i(program.uniform("display"), display.choice);
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glUniform1i(programs_->show.uniform("picture"), 0);
+    glBindTexture(GL_TEXTURE_2D, light.texture);
+    glUniform1i(program.uniform("picture"), 0);
     glBindVertexArray(empty_array_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -566,34 +598,48 @@ void Renderer::show(const FrameInput& frame, int width, int height, int left)
 {
     upload(frame);
     const Part all = {0, 0, width, height};
-    resolve(accumulate(frame, width, height, all), 0, all, left);
+    resolve(frame, accumulate(frame, width, height, all), 0, all, left);
 }
 
-Image Renderer::picture(const FrameInput& frame, int width, int height)
+void Renderer::draw_parts(const FrameInput& frame, int width, int height, const TakePart& take)
 {
     if (width < 1 || height < 1 || width > 8192 || height > 8192)
         throw fail("a picture of {} x {} pixels cannot be drawn; each side must lie in [1, 8192]", width, height);
     upload(frame);
-    Image image{width, height, std::vector<unsigned char>(size_t(4) * size_t(width) * size_t(height))};
     const int most = 2048; // pixels a side of a tile, which bounds the memory
-    Target bytes;
-    std::vector<unsigned char> pixels;
     for (int y = 0; y < height; y += most)
         for (int x = 0; x < width; x += most)
         {
             const Part part = {x, y, std::min(most, width - x), std::min(most, height - y)};
-            const GLuint texture = accumulate(frame, width, height, part);
-            prepare(bytes, part.width, part.height, 0, GL_RGBA8);
-            resolve(texture, bytes.framebuffer, part);
-            pixels.resize(size_t(4) * size_t(part.width) * size_t(part.height));
-            glPixelStorei(GL_PACK_ALIGNMENT, 1);
-            glReadPixels(0, 0, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-            for (int row = 0; row < part.height; ++row) // GL's first row is the lowest
-                std::copy_n(&pixels[size_t(4) * size_t(row) * size_t(part.width)], size_t(4) * size_t(part.width),
-                            &image.pixels[size_t(4) * (size_t(height - 1 - y - row) * size_t(width) + size_t(x))]);
+            take(accumulate(frame, width, height, part), part);
         }
+}
+
+Image Renderer::picture(const FrameInput& frame, int width, int height)
+{
+    Image image{width, height, {}};
+    Target bytes;
+    const auto take = [&](const Target& light, Part part)
+    {
+        prepare(bytes, part.width, part.height, 0, GL_RGBA8);
+        resolve(frame, light, bytes.framebuffer, part);
+        put_part(GL_UNSIGNED_BYTE, part.x, part.y, part.width, part.height, image);
+    };
+    draw_parts(frame, width, height, take);
     glDeleteFramebuffers(1, &bytes.framebuffer);
     glDeleteTextures(1, &bytes.texture);
+    return image;
+}
+
+LinearImage Renderer::linear_picture(const FrameInput& frame, int width, int height)
+{
+    LinearImage image{width, height, {}};
+    const auto take = [&](const Target& light, Part part)
+    {
+        glBindFramebuffer(GL_FRAMEBUFFER, light.framebuffer);
+        put_part(GL_FLOAT, part.x, part.y, part.width, part.height, image);
+    };
+    draw_parts(frame, width, height, take);
     return image;
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,6 +48,8 @@ struct FrameInput
     bool transparent = false; // no backdrop: alpha instead
     int samples = 1;          // jittered pictures that are averaged
     int before = 0;           // pictures of the same input and size that show() has drawn last, averaged in as well
+    int first = -1;           // of the places in pixel and lens (app/lens.h), which of many pictures this is; -1: the
+                              // only one, so that one sample alone is in the middle of both
     float kept = 1.0f;        // share of the strands that are drawn, each as much wider
 
     int light_resolution() const; // side of optical_depth; 0 without shadow
@@ -74,11 +77,15 @@ class Renderer
     void show(const FrameInput& frame, int width, int height, int left = 0);
     // Draws apart from any window. At most 8192 x 8192; large pictures are put together of tiles.
     Image picture(const FrameInput& frame, int width, int height);
+    // The same picture's light, before exposure and display transform.
+    LinearImage linear_picture(const FrameInput& frame, int width, int height);
 
     // Compiles all shaders anew; throws, and keeps the old ones, when one fails.
     void reload_shaders();
     // What the driver calls itself.
     std::string name() const;
+    int level() const { return level_; }                   // of look.level, that it has drawn with last; 0: none
+    Shading* shading() { return shading_.get(); }          // none before it has drawn so
     Rasteriser* rasteriser() { return rasteriser_.get(); } // none before it has drawn
     // What draws the strands where that is left to a rule: the geometry shader where there is a graphics card for it.
     static Method method_of(const HairParams& params);
@@ -104,27 +111,36 @@ class Renderer
     void upload_colors(const FrameInput& frame);
     void upload_shades();
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
-    void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter);
+    void upload_ground(const FrameInput& frame);
+    // From a place in the pixel, and on the lens, m.
+    void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter, glm::vec2 lens);
     void draw_solids(const FrameInput& frame);
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame);
+    void choose_level(const FrameInput& frame, const HairParams& of_light);
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
+    void draw_ground(const FrameInput& frame, const ShaderProgram& surface, glm::vec3 eye);
     void draw_strands(const FrameInput& frame);
     void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
-    // All samples of a part, averaged. Returns the texture that holds them.
-    GLuint accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
-    void resolve(GLuint texture, GLuint framebuffer, Part part, int left = 0);
+    // All samples of a part, averaged. Returns what holds them.
+    const Target& accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
+    // Each part of a picture in turn, drawn.
+    using TakePart = std::function<void(const Target&, Part)>;
+    void draw_parts(const FrameInput& frame, int width, int height, const TakePart& take);
+    void resolve(const FrameInput& frame, const Target& light, GLuint framebuffer, Part part, int left = 0);
     void prepare(Target& target, int width, int height, int samples, GLenum format, GLenum depth_format = 0);
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Rasteriser> rasteriser_;             // none until it is asked for
-    std::unique_ptr<Shading> shading_;                   // none until a level asks for it
-    std::vector<char> lit_by_, seen_from_;               // what it has worked out last
+    std::unique_ptr<Rasteriser> rasteriser_; // none until it is asked for
+    std::unique_ptr<Shading> shading_;       // none until a level asks for it
+    std::vector<char> lit_by_, seen_from_;   // what it has worked out last
+    std::vector<char> chosen_by_;
+    int level_ = 0;                                      // of look.level, that is drawn with
     bool shaded_ = false;                                // are colours worked out for this picture?
     int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
     std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded
@@ -138,14 +154,18 @@ class Renderer
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
     GLint braided_ = 0; // strands that may be
+    GLuint ground_array_ = 0, ground_buffer_ = 0, ground_indices_ = 0;
     GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0, solid_colors_ = 0, shades_texture_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
     GLuint leader_texture_ = 0, leader_buffer_ = 0, rastered_texture_ = 0;
     int depth_resolution_ = 0; // that the texture has room for
-    GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0;
+    GLsizei strand_index_count_ = 0, mesh_index_count_ = 0, sphere_index_count_ = 0, ring_index_count_ = 0,
+            ground_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
     std::vector<float> mesh_key_;
-    float enclosed_ = 0.0f; // radius of a ball inside the head, m, before head.scale
+    std::vector<float> ground_; // corners, as the head's: in the world, as long as the head has not leapt, m
+    float ground_height_ = 0.0f, ground_radius_ = 0.0f; // m
+    float enclosed_ = 0.0f;                             // radius of a ball inside the head, m, before head.scale
     std::vector<std::pair<float, unsigned>> order_;
     std::vector<unsigned> indices_;
 };

@@ -2,11 +2,9 @@
 // colours.
 #include "app/renderer.h"
 
+#include "app/look_level.h"
 #include "app/renderer_rings.h"
-#include "app/shading.h"
 #include "sim/error.h"
-#include "sim/tied_hair.h"
-#include "sim/wave.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,8 +23,6 @@ template <typename T> static void append(std::vector<char>& key, const T& value)
     const char* bytes = reinterpret_cast<const char*>(&value);
     key.insert(key.end(), bytes, bytes + sizeof value);
 }
-
-static int level_of(const FrameInput& frame) { return frame.params.look_level; }
 
 // As draw_solids() draws them, one thing after the other.
 std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
@@ -49,6 +45,12 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     { return glm::dot(n, n) > 1e-20f ? glm::normalize(n) : glm::vec3(0.0f, 1.0f, 0.0f); };
     const auto triple = [](const std::vector<float>& from, size_t i)
     { return glm::vec3(from[i], from[i + 1], from[i + 2]); };
+    if (frame.params.look_ground != 0)
+    {
+        const glm::vec3 moved(frame.simulation->solver().jumped() - frame.simulation->solver().head().origin);
+        for (size_t i = 0; i < ground_.size(); i += 7)
+            add(triple(ground_, i) + moved, triple(ground_, i + 3), 0.0f, rgb(p.look_background), 0.0f);
+    }
     for (size_t i = 0; i < mesh_vertices_.size(); i += 7)
     {
         const float roots = mesh_vertices_[i + 6];
@@ -79,9 +81,13 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
 // Follows the light anew where anything but the camera has changed.
 void Renderer::light(const FrameInput& frame)
 {
-    shaded_ = level_of(frame) > LOOK_KAJIYA_KAY && frame.colors.value.empty();
+    shaded_ = frame.params.look_level != LOOK_KAJIYA_KAY && frame.colors.value.empty();
     if (!shaded_)
+    {
+        level_ = LOOK_KAJIYA_KAY;
+        chosen_by_.clear();
         return;
+    }
     const Solver& solver = frame.simulation->solver();
     if (!shading_ || shading_->device().context() != solver.device().context())
     {
@@ -104,20 +110,28 @@ void Renderer::light(const FrameInput& frame)
     if (key == lit_by_)
         return;
     lit_by_.clear(); // what is there is lost if this fails
-    LitScene scene{&solver,
-                   params,
-                   wave_table(frame.params),
-                   braid_values(solver.groom()),
-                   frame.lighting,
-                   glm::vec3(INFINITY),
-                   glm::vec3(-INFINITY)};
-    for (const LookSurface& s : solid_points(frame))
-    {
-        scene.low = glm::min(scene.low, glm::vec3(s.position.x, s.position.y, s.position.z));
-        scene.high = glm::max(scene.high, glm::vec3(s.position.x, s.position.y, s.position.z));
-    }
+    LitScene scene = lit_scene(*frame.simulation);
+    scene.params = params;
+    scene.lighting = frame.lighting;
     shading_->light(scene);
     lit_by_ = key;
+    choose_level(frame, of_light);
+}
+
+// Anew only where the style or its lights change: hair that moves would go to and fro between two levels.
+void Renderer::choose_level(const FrameInput& frame, const HairParams& of_light)
+{
+    std::vector<char> key;
+    append(key, of_light);
+    append(key, &frame.simulation->solver());
+    for (const Sun& sun : frame.lighting.suns)
+        append(key, sun);
+    append(key, frame.lighting.sky);
+    if (key == chosen_by_)
+        return;
+    level_ = chosen_level(frame.params,
+                          frame.params.look_level == LOOK_AUTO ? level_errors(*shading_) : std::vector<LevelError>{});
+    chosen_by_ = key;
 }
 
 // Colours as they are seen from the eye, for whatever draws them.
@@ -133,7 +147,7 @@ void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
     const bool strands = frame.params.render_show != 1;
     if (strands)
     {
-        const ShadedStrands& shaded = shading_->shade(eye, level_of(frame), frame.kept);
+        const ShadedStrands& shaded = shading_->shade(eye, level_, frame.kept);
         shaded_pieces_ = shaded.pieces;
         if (method_of(frame.params) == BY_OPENCL)
             rastered_->shaded = &shaded;

@@ -45,6 +45,19 @@ std::vector<float> corners_of(const Band& band)
     return corners;
 }
 
+std::vector<glm::uvec3> band_triangles()
+{
+    std::vector<glm::uvec3> triangles;
+    for (unsigned i = 0; i < kAround; ++i)
+        for (unsigned j = 0; j < kAcross; ++j)
+        {
+            const unsigned a = i * (kAcross + 1) + j, b = a + kAcross + 1;
+            triangles.emplace_back(a, a + 1, b);
+            triangles.emplace_back(b, a + 1, b + 1);
+        }
+    return triangles;
+}
+
 // About the guide that a braid follows, where it is bound; in the world's axes about the head's origin.
 static Band end_of(const FrameInput& frame, const Tail& braid, float thickness)
 {
@@ -102,17 +115,11 @@ void Renderer::upload_braids(const FrameInput& frame)
 
 void Renderer::make_rings()
 {
-    std::vector<unsigned> faces;
-    for (unsigned i = 0; i < kAround; ++i)
-        for (unsigned j = 0; j < kAcross; ++j)
-        {
-            const unsigned a = i * (kAcross + 1) + j, b = a + kAcross + 1;
-            faces.insert(faces.end(), {a, a + 1, b, b, a + 1, b + 1});
-        }
+    const std::vector<glm::uvec3> faces = band_triangles();
     glBindVertexArray(ring_array_);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, ring_indices_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(unsigned)), faces.data(), GL_STATIC_DRAW);
-    ring_index_count_ = GLsizei(faces.size());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(glm::uvec3)), faces.data(), GL_STATIC_DRAW);
+    ring_index_count_ = GLsizei(3 * faces.size());
     glGenTextures(1, &braid_texture_);
     glBindTexture(GL_TEXTURE_BUFFER, braid_texture_);
     glBindBuffer(GL_TEXTURE_BUFFER, braid_buffer_);

@@ -26,5 +26,6 @@ std::vector<Ring> rings_of(const FrameInput& frame);
 
 // Corners of a band, seven floats each: position, normal and a 0.
 std::vector<float> corners_of(const Band& band);
+std::vector<glm::uvec3> band_triangles(); // between them
 
 } // namespace coif

@@ -2,6 +2,7 @@
 #include "app/renderer.h"
 
 #include "app/rasteriser.h"
+#include "app/root_shares.h"
 #include "sim/tied_hair.h"
 #include "sim/wave.h"
 
@@ -46,7 +47,6 @@ static bool is_hidden(glm::vec3 eye, glm::vec3 point, glm::vec3 center, float ra
     return glm::dot(away, away) < radius * radius;
 }
 
-// The head with the share of each vertex that lies under the roots: within 4 mm of the scalp wholly, fading out at 14.
 void Renderer::upload_mesh(const FrameInput& frame)
 {
     const Assets& assets = frame.simulation->assets();
@@ -62,34 +62,14 @@ void Renderer::upload_mesh(const FrameInput& frame)
     mesh_of_ = assets.head.positions.data();
     mesh_key_ = key;
     const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
-    const Scalp& scalp = assets.scalp;
-    const float near = 0.02f * scalp.extent, far = 0.07f * scalp.extent;
-    std::vector<glm::vec4> balls; // about each triangle, to skip those out of reach
-    for (const glm::uvec3& t : scalp.triangles)
-    {
-        const glm::vec3 middle = (scalp.positions[t.x] + scalp.positions[t.y] + scalp.positions[t.z]) / 3.0f;
-        float radius = 0.0f;
-        for (int k = 0; k < 3; ++k)
-            radius = std::max(radius, glm::distance(middle, scalp.positions[t[k]]));
-        balls.emplace_back(middle, radius);
-    }
+    const std::vector<float> roots = shares_of_roots(assets, p);
     std::vector<float>& vertices = mesh_vertices_;
     vertices.clear();
     vertices.reserve(assets.head.positions.size() * 7);
     for (size_t i = 0; i < assets.head.positions.size(); ++i)
     {
         const glm::vec3 at = assets.head.positions[i] * p.head_mesh_scale + offset, n = assets.head.normals[i];
-        float nearest = far;
-        for (size_t t = 0; t < balls.size(); ++t)
-        {
-            if (glm::distance(at, glm::vec3(balls[t])) - balls[t].w > nearest)
-                continue;
-            const glm::uvec3 corner = scalp.triangles[t];
-            nearest = std::min(nearest, triangle_distance(at, scalp.positions[corner.x], scalp.positions[corner.y],
-                                                          scalp.positions[corner.z]));
-        }
-        const float share = 1.0f - glm::smoothstep(near, far, nearest);
-        vertices.insert(vertices.end(), {at.x, at.y, at.z, n.x, n.y, n.z, share});
+        vertices.insert(vertices.end(), {at.x, at.y, at.z, n.x, n.y, n.z, roots[i]});
     }
     glBindVertexArray(mesh_array_);
     glBindBuffer(GL_ARRAY_BUFFER, mesh_buffer_);
@@ -97,7 +77,7 @@ void Renderer::upload_mesh(const FrameInput& frame)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(assets.head.triangles.size() * sizeof(glm::uvec3)),
                  assets.head.triangles.data(), GL_STATIC_DRAW);
     mesh_index_count_ = GLsizei(assets.head.triangles.size() * 3);
-    enclosed_ = enclosed_radius(vertices, assets.head.triangles, scalp.center);
+    enclosed_ = enclosed_radius(vertices, assets.head.triangles, assets.scalp.center);
 }
 
 // What is put in order: a whole strand, or of a tied one what lies before and behind its ring, which go other ways.
@@ -247,6 +227,7 @@ void Renderer::upload(const FrameInput& frame)
     }
 
     upload_mesh(frame);
+    upload_ground(frame);
     light(frame);
     if (params.render_show == 1)
         return;

@@ -96,11 +96,13 @@ std::string numbered(const std::string& pattern, int number)
 
 fs::path unused_name(const std::string& name)
 {
-    const std::string stem = name.ends_with(".png") ? name.substr(0, name.size() - 4) : name;
+    const bool ended = name.ends_with(".png") || name.ends_with(".hdr");
+    const std::string stem = ended ? name.substr(0, name.size() - 4) : name;
+    const std::string ending = ended ? name.substr(name.size() - 4) : ".png";
     fs::path file;
     std::error_code error;
     for (int n = 1; file.empty() || fs::exists(file, error); ++n)
-        file = fmt::format("{}-{:03}.png", stem, n);
+        file = fmt::format("{}-{:03}{}", stem, n, ending);
     return file;
 }
 
@@ -136,11 +138,10 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
     {
         progress.say(fmt::format("picture {} of {}", &frame - frames.data() + 1, frames.size()));
         studio.play_to(frame.seconds);
-        const Image image = studio.picture(frame.turn);
         if (film)
-            film->add(image);
+            film->add(studio.picture(frame.turn));
         else
-            save_png(numbered(pattern, frame.number), image);
+            studio.save(numbered(pattern, frame.number), frame.turn);
     }
     if (film)
         film->finish();

@@ -31,7 +31,7 @@ std::string numbered_pattern(const std::string& output);
 // "a_%04d.png", 7 -> "a_0007.png"
 std::string numbered(const std::string& pattern, int number);
 
-// "a" or "a.png" -> "a-001.png", or the first number of which there is no file yet.
+// "a" or "a.png" -> "a-001.png", "a.hdr" -> "a-001.hdr", or the first number of which there is no file yet.
 std::filesystem::path unused_name(const std::string& name);
 
 // Takes them into numbered pictures, or into a film where the output is called so and ffmpeg is there. Returns the exit

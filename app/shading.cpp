@@ -262,7 +262,7 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {} while following the light", e.err(), e.what());
 }
 
-void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces)
+void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces, int stride)
 {
     LookFrame frame = {};
     frame.eye = F4(eye.x, eye.y, eye.z, kept);
@@ -279,6 +279,7 @@ void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces)
     frame.nodes = params_.look_azimuthal_roughness < 0.25f ? 8 : 4; // narrow lobes band
     frame.braided = braided_;
     frame.surfaces = int(surfaces);
+    frame.stride = stride;
     passes_.fill("look_frame", std::vector<LookFrame>(1, frame));
 }
 
@@ -296,6 +297,29 @@ try
 catch (const cl::Error& e)
 {
     throw fail("OpenCL error {} from {} while shading the strands", e.err(), e.what());
+}
+
+double Shading::handed_on_share()
+try
+{
+    constexpr int kStrands = 512; // that it is looked at on, at most twice as many
+    const int stride = std::max(1, volume_.strands / kStrands);
+    const size_t items = size_t((volume_.strands + stride - 1) / stride);
+    if (items == 0 || suns_ == 0)
+        return 0.0;
+    look_at(glm::vec3(0.0f), 1.0f, 0, stride);
+    // Groups of 64 on GPUs write as many.
+    passes_.fill("straight_and_handed", std::vector<cl_float2>((items + 63) / 64 * 64, cl_float2{}));
+    passes_.launch("look_share", options_, items);
+    glm::dvec2 sum(0.0);
+    for (const cl_float2& share : read<cl_float2>(passes_.device, passes_.buffers["straight_and_handed"], items))
+        if (std::isfinite(share.s[0]) && std::isfinite(share.s[1]))
+            sum += glm::dvec2(share.s[0], share.s[1]);
+    return sum.y / std::max(sum.x + sum.y, 1e-12);
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while following the light", e.err(), e.what());
 }
 
 std::vector<float4> Shading::lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye)

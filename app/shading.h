@@ -47,6 +47,9 @@ class Shading
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
 
+    // Share of the suns' light on the strands that comes by way of other fibres, which only LOOK_DUAL_SCATTERING has.
+    double handed_on_share();
+
     const Device& device() const { return passes_.device; }
     const Buffers& buffers() const { return passes_.buffers; } // for tests: by kernel argument
     const LookVolume& volume() const { return volume_; }
@@ -55,7 +58,7 @@ class Shading
   private:
     void place_volume(const LitScene& scene);
     void sweep(const Lighting& lighting);
-    void look_at(glm::vec3 eye, float kept, size_t surfaces);
+    void look_at(glm::vec3 eye, float kept, size_t surfaces, int stride = 1);
 
     Passes passes_;
     ShadedStrands shaded_;

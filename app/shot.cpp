@@ -1,5 +1,7 @@
 #include "app/shot.h"
 
+#include "app/display.h"
+#include "app/lens.h"
 #include "app/progress.h"
 #include "sim/error.h"
 #include "sim/source.h"
@@ -51,8 +53,8 @@ void check_shot(const Options& options, const ShotOptions& shot)
 {
     if (!(options.seconds >= 0.0 && options.seconds <= kLongestShot))
         throw fail("--time {}: expected seconds from 0 to {}", options.seconds, kLongestShot);
-    if (shot.samples < 1 || shot.samples > 1024)
-        throw fail("--samples {}: expected 1 to 1024", shot.samples);
+    if (shot.samples && (*shot.samples < 1 || *shot.samples > 1024))
+        throw fail("--samples {}: expected 1 to 1024", *shot.samples);
     if (!shot.camera.empty())
         parse_camera(shot.camera, {});
 }
@@ -61,34 +63,117 @@ Studio::Studio(const Device& device, const Hairstyle& style, const Motion& motio
     : shot_(shot), simulation_(device, style), renderer_(data_folder() / "shaders")
 {
     simulation_.play(motion);
+    if (shot.samples == 1 && is_blurred(style.params))
+        fmt::print(stderr, "coif: one sample shows neither camera.aperture nor camera.shutter; take more --samples\n");
+}
+
+double Studio::open_steps() const { return open_seconds(simulation_.params()) / simulation_.step_seconds(); }
+
+// Keeps what a picture at step `target` will be made of.
+void Studio::note_moment(long target)
+{
+    const long first = long(std::floor(double(target) - open_steps()));
+    while (!moments_.empty() && moments_.front().first < first)
+        moments_.pop_front();
+    const long now = simulation_.steps();
+    if (open_steps() > 0.0 && now >= first && (moments_.empty() || moments_.back().first < now))
+        moments_.emplace_back(now, simulation_.solver().moment());
 }
 
 void Studio::play_to(double seconds)
 {
     const long steps = std::lround(seconds / simulation_.step_seconds());
+    note_moment(steps);
     while (simulation_.steps() < steps)
     {
         simulation_.step(simulation_.hand());
+        note_moment(steps);
         if (simulation_.steps() % 16 == 1)
             simulation_.solver().take_times(); // lets the queue's uploads go
     }
 }
 
-Image Studio::picture(double turn)
+void play_to(Simulation& simulation, double seconds)
 {
-    simulation_.solver().draw();
-    Camera camera = camera_of(simulation_.params());
-    if (!shot_.camera.empty())
-        camera = parse_camera(shot_.camera, camera);
-    camera.yaw += turn;
-    camera.target += simulation_.jumped();
-    FrameInput frame = frame_input(simulation_, camera);
-    frame.samples = shot_.samples;
-    frame.transparent = shot_.transparent;
-    return renderer_.picture(frame, shot_.width, shot_.height);
+    const long steps = std::lround(seconds / simulation.step_seconds());
+    while (simulation.steps() < steps)
+    {
+        simulation.step(simulation.hand());
+        if (simulation.steps() % 16 == 1)
+            simulation.solver().take_times(); // lets the queue's uploads go
+    }
 }
 
-Image take_shot(const Options& options, const ShotOptions& shot, double turn)
+Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn)
+{
+    Camera camera = camera_of(simulation.params());
+    if (!shot.camera.empty())
+        camera = parse_camera(shot.camera, camera);
+    camera.yaw += turn;
+    camera.target += simulation.jumped();
+    return camera;
+}
+
+FrameInput Studio::frame(double turn)
+{
+    simulation_.solver().draw();
+    FrameInput frame = frame_input(simulation_, shot_camera(simulation_, shot_, turn));
+    frame.samples = shot_.samples.value_or(good_samples(frame.params));
+    frame.transparent = shot_.transparent;
+    return frame;
+}
+
+LinearImage Studio::moving_picture(double turn)
+{
+    Solver& solver = simulation_.solver();
+    const int samples = shot_.samples.value_or(good_samples(simulation_.params()));
+    LinearImage mean{shot_.width, shot_.height, {}};
+    for (int i = 0; i < samples; ++i)
+    {
+        const double end = double(moments_.back().first), begin = end - open_steps();
+        const double at = std::max(begin + (end - begin) * (i + 0.5) / samples, double(moments_.front().first));
+        const size_t before = std::min(size_t(at) - size_t(moments_.front().first), moments_.size() - 1);
+        const size_t after = std::min(before + 1, moments_.size() - 1);
+        solver.show(between(moments_[before].second, moments_[after].second, at - std::floor(at)));
+        FrameInput sample = frame(turn);
+        sample.samples = 1;
+        sample.first = i;
+        const LinearImage light = renderer_.linear_picture(sample, shot_.width, shot_.height);
+        mean.pixels.resize(light.pixels.size());
+        for (size_t k = 0; k < light.pixels.size(); ++k)
+            mean.pixels[k] += light.pixels[k] / float(samples);
+        solver.take_times(); // lets the queue's uploads go
+    }
+    solver.show(moments_.back().second);
+    return mean;
+}
+
+LinearImage Studio::linear_picture(double turn)
+{
+    if (open_steps() > 0.0)
+        return moving_picture(turn);
+    return renderer_.linear_picture(frame(turn), shot_.width, shot_.height);
+}
+
+Image Studio::picture(double turn)
+{
+    if (open_steps() > 0.0)
+        return displayed(moving_picture(turn), simulation_.params());
+    return renderer_.picture(frame(turn), shot_.width, shot_.height);
+}
+
+void Studio::save(const std::filesystem::path& file, double turn)
+{
+    if (is_linear(file))
+        save_hdr(file, linear_picture(turn), display_of(simulation_.params()).gain);
+    else
+        save_png(file, picture(turn));
+}
+
+bool is_linear(const std::filesystem::path& file) { return file.extension() == ".hdr"; }
+
+// Calls back with a studio that has played the motion.
+template <typename Take> static auto at_its_time(const Options& options, const ShotOptions& shot, const Take& take)
 {
     check_shot(options, shot);
     const Hairstyle style = load_style(options);
@@ -100,7 +185,17 @@ Image take_shot(const Options& options, const ShotOptions& shot, double turn)
     Studio studio(device, style, motion, shot);
     progress.say(style.name() + ": moves");
     studio.play_to(options.seconds);
-    return studio.picture(turn);
+    return take(studio);
+}
+
+Image take_shot(const Options& options, const ShotOptions& shot, double turn)
+{
+    return at_its_time(options, shot, [&](Studio& studio) { return studio.picture(turn); });
+}
+
+void save_shot(const Options& options, const ShotOptions& shot, double turn)
+{
+    at_its_time(options, shot, [&](Studio& studio) { studio.save(options.output, turn); });
 }
 
 } // namespace coif

@@ -2,6 +2,9 @@
 #include "app/options.h"
 #include "app/renderer.h"
 
+#include <deque>
+#include <optional>
+
 namespace coif
 {
 
@@ -10,8 +13,8 @@ constexpr double kLongestShot = 3600.0; // s of a motion
 struct ShotOptions
 {
     int width = 1280, height = 720;
-    std::string camera; // "front", "left", "right", "back", "top", or "yaw,pitch" or "yaw,pitch,distance"
-    int samples = 16;
+    std::string camera;         // "front", "left", "right", "back", "top", or "yaw,pitch" or "yaw,pitch,distance"
+    std::optional<int> samples; // none: as many as the picture asks for
     bool transparent = false;
 };
 
@@ -20,6 +23,12 @@ void parse_size(const std::string& text, ShotOptions& shot);
 
 // Throws Error for options that no picture can be taken with, before anything is opened for it.
 void check_shot(const Options& options, const ShotOptions& shot);
+
+// Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
+void play_to(Simulation& simulation, double seconds);
+
+// The camera that is asked for, `turn` (rad) further round its target; with the head where teleports have carried it.
+Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn);
 
 // A style that plays a motion, and pictures of it as time goes on: equal styles, times and options give equal pictures,
 // however many were taken before. Needs a current GL context; the device must outlive it.
@@ -30,17 +39,31 @@ class Studio
 
     // Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
     void play_to(double seconds);
-    // Taken from `turn` (rad) further round the camera's target than the options say.
+    // Taken from `turn` (rad) further round the camera's target than the options say. Where the shutter is open for a
+    // while, its samples are spread over that, to its end: what lies between two steps is where a straight line has it.
     Image picture(double turn = 0.0);
+    // The same, written: its bytes as PNG, or where the file is called so its light as .hdr. Throws Error.
+    void save(const std::filesystem::path& file, double turn = 0.0);
 
   private:
+    FrameInput frame(double turn);
+    double open_steps() const; // that the shutter is open for
+    void note_moment(long target);
+    LinearImage linear_picture(double turn);
+    LinearImage moving_picture(double turn);
+
     ShotOptions shot_;
     Simulation simulation_;
     Renderer renderer_;
+    std::deque<std::pair<long, Moment>> moments_; // the last steps that the shutter was open for, by number
 };
 
+// Is it light that is written to a file of this name, rather than the bytes of a picture?
+bool is_linear(const std::filesystem::path& file);
+
 // Plays the motion for the given time without drawing, then draws once, `turn` (rad) further round: the same input
-// gives the same picture.
+// gives the same picture. The second writes it to options.output.
 Image take_shot(const Options& options, const ShotOptions& shot, double turn = 0.0);
+void save_shot(const Options& options, const ShotOptions& shot, double turn = 0.0);
 
 } // namespace coif

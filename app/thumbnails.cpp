@@ -81,7 +81,7 @@ void Thumbnails::find_key(const fs::path& style, Entry& entry)
             *reinterpret_cast<const std::string*>(reinterpret_cast<const char*>(&hair.host) + info.offset);
         if (named.empty())
             continue;
-        const fs::path file = resolve_path(hair, info.path(), named, data_folder() / "assets");
+        const fs::path file = named_file(hair, info.path(), named);
         entry.files[file] = written_at(file);
         add(file);
     }

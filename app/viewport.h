@@ -52,12 +52,15 @@ struct Grab
         COLLIDER,
         TIE,
         BRUSH,
-        CUT
+        CUT,
+        LIGHT
     } what = NONE;
     size_t collider = 0; // of the style
     size_t tie = 0;      // of the style
+    size_t light = 0;    // of the style
     Tie tie_before;
-    glm::dvec3 aside{0.0};         // from the line of sight through the press to that through the ring's middle
+    glm::dvec3 aside{0.0};         // from the line of sight through the press to that through the ring's middle; of a
+                                   // light, pixels
     glm::dvec3 start{0.0};         // where it was taken, world
     glm::dvec3 origin_before{0.0}; // of the head or the collider, world
     glm::dquat turn_before{1, 0, 0, 0};

@@ -2,14 +2,16 @@
 // for lanes and by the tests' C++; the names that they expect are those of ribbon.h, and SELECT(no, yes, test).
 //
 // theta is the inclination to the fibre's normal plane, positive towards the tip; phi the angle about the fibre between
-// light and eye, 0 where the light comes from the eye's side. Directions point away from the fibre. si, ci, so, co: sine
-// and cosine of theta of the light and of the eye. What is scattered is radiance per unit of irradiance on a surface that
-// faces the light: the fibre's cosine is in it. Variances v are of sin theta, and absorption is per radius of the fibre.
+// light and eye, 0 where the light comes from the eye's side. Directions point away from the fibre. si, ci, so, co:
+// sine and cosine of theta of the light and of the eye. What is scattered is radiance per unit of irradiance on a
+// surface that faces the light: the fibre's cosine is in it. Variances v are of sin theta, and absorption is per radius
+// of the fibre.
 //
 //   d'Eon 2011   d'Eon, Francois, Hill, Letteri, Aubry. An energy-conserving hair reflectance model. 2011.
 //   Chiang 2016  Chiang, Bitterli, Tappan, Burley. A practical and controllable hair and fur model. 2016.
 //   Karis 2016   Karis. Physically based hair shading in Unreal. SIGGRAPH course, 2016.
-//   Zinke 2008   Zinke, Yuksel, Weber, Keyser. Dual scattering approximation for fast multiple scattering in hair. 2008.
+//   Zinke 2008   Zinke, Yuksel, Weber, Keyser. Dual scattering approximation for fast multiple scattering in hair.
+//   2008.
 #ifndef COIF_FIBRE_H
 #define COIF_FIBRE_H
 
@@ -18,8 +20,8 @@
 // What is the same for a whole strand.
 STRUCT(Fibre)
 {
-    float variance;  // longitudinal, of the lobe R: Chiang 2016, eq. 7; TT has a quarter, TRT and the rest four times
-    float logistic;  // scale of the azimuthal lobes, rad: Chiang 2016, eq. 8
+    float variance; // longitudinal, of the lobe R: Chiang 2016, eq. 7; TT has a quarter, TRT and the rest four times
+    float logistic; // scale of the azimuthal lobes, rad: Chiang 2016, eq. 8
     float ior;
     float sin_tilt, cos_tilt;             // of the cuticle's scales
     float sin_twice_tilt, cos_twice_tilt; // R leans by twice the tilt to the root
@@ -33,10 +35,7 @@ STRUCT(FibreAngles)
     REAL phi, cos_phi, cos_half; // half of phi
 };
 
-STRUCT(Rgb)
-{
-    REAL r, g, b;
-};
+STRUCT(Rgb) { REAL r, g, b; };
 
 CURVE_FUNCTION Rgb rgb(REAL r, REAL g, REAL b)
 {
@@ -66,10 +65,7 @@ CURVE_FUNCTION REAL arc_cosine(REAL x)
 
 CURVE_FUNCTION REAL arc_sine(REAL x) { return 0.5f * FIBRE_PI - arc_cosine(x); }
 
-CURVE_FUNCTION REAL wrapped(REAL angle)
-{
-    return angle - 2.0f * FIBRE_PI * floor(angle * (0.5f / FIBRE_PI) + 0.5f);
-}
+CURVE_FUNCTION REAL wrapped(REAL angle) { return angle - 2.0f * FIBRE_PI * floor(angle * (0.5f / FIBRE_PI) + 0.5f); }
 
 // I0(x) exp(-x) for x no less than 0. Abramowitz, Stegun 1964, 9.8.1 and 9.8.2: within 2e-7.
 CURVE_FUNCTION REAL scaled_bessel(REAL x)
@@ -138,8 +134,8 @@ CURVE_FUNCTION REAL fresnel(REAL cosine, float ior)
     return 0.5f * (s * s + p * p);
 }
 
-// From the cosines of tangent and light, tangent and eye, light and eye. The guards keep a light along the strand, or an
-// eye, at a thousandth of a radian from it.
+// From the cosines of tangent and light, tangent and eye, light and eye. The guards keep a light along the strand, or
+// an eye, at a thousandth of a radian from it.
 CURVE_FUNCTION FibreAngles fibre_angles(REAL along_light, REAL along_eye, REAL light_eye)
 {
     FibreAngles a;
@@ -154,10 +150,7 @@ CURVE_FUNCTION FibreAngles fibre_angles(REAL along_light, REAL along_eye, REAL l
 }
 
 // What of the lobes hangs neither on the colour nor on the place across the fibre.
-STRUCT(LobeHeights)
-{
-    REAL r, tt, trt, rest;
-};
+STRUCT(LobeHeights) { REAL r, tt, trt, rest; };
 
 // Longitudinal heights, each lobe widened by a further variance.
 CURVE_FUNCTION LobeHeights lobe_heights(Fibre f, FibreAngles a, REAL further)
@@ -172,8 +165,8 @@ CURVE_FUNCTION LobeHeights lobe_heights(Fibre f, FibreAngles a, REAL further)
 
 // The lobes averaged over the fibre's width, at `nodes` places across it (Chiang 2016, eq. 2 to 6): a strand is thinner
 // than a pixel, so that the place is not known. Each place's azimuthal lobe is widened to cover its own share of the
-// width. `around`: light that has gone through other fibres comes from the whole half plane in front, and so is averaged
-// over it (N^G of Zinke 2008, eq. 21).
+// width. `around`: light that has gone through other fibres comes from the whole half plane in front, and so is
+// averaged over it (N^G of Zinke 2008, eq. 21).
 //
 // R needs no places: its average has a closed form, cos(phi / 2) F / 4 (Marschner et al. 2003, eq. 4 with p = 0).
 CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, int nodes, bool around)
@@ -232,10 +225,7 @@ CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, 
     return sum;
 }
 
-CURVE_FUNCTION REAL gaussian(REAL x, REAL width)
-{
-    return exp(-0.5f * squared(x / width)) / (2.50662827f * width);
-}
+CURVE_FUNCTION REAL gaussian(REAL x, REAL width) { return exp(-0.5f * squared(x / width)) / (2.50662827f * width); }
 
 CURVE_FUNCTION REAL schlick(REAL cosine)
 {
@@ -260,8 +250,8 @@ CURVE_FUNCTION Rgb karis(Fibre f, FibreAngles a, Rgb absorb, float roughness)
 
     REAL h = a.cos_half * (1.0f + (0.6f - 0.8f * a.cos_phi) / index);
     REAL mirrored = schlick(cos_d * sqrt(max(1.0f - h * h, 0.0f)));
-    REAL tt = gaussian(both - f.sin_tilt, 0.5f * wide + 1e-4f) * squared(1.0f - mirrored) *
-              exp(-3.65f * a.cos_phi - 3.98f);
+    REAL tt =
+        gaussian(both - f.sin_tilt, 0.5f * wide + 1e-4f) * squared(1.0f - mirrored) * exp(-3.65f * a.cos_phi - 3.98f);
     REAL way_tt = -2.0f * sqrt(max(1.0f - squared(h / index), 0.0f)) / cos_d;
 
     REAL inside = schlick(cos_d * 0.5f);
@@ -280,8 +270,8 @@ CURVE_FUNCTION REAL absorption_of(REAL color, float per_log)
     return squared(log(clamp(color, 1e-4f, 0.9999f))) * per_log;
 }
 
-// Light that comes through other fibres instead of past them: crossings are Poisson with mean tau, and each hands on the
-// share `forward` (Zinke 2008, eq. 5 and 6, summed over the distribution).
+// Light that comes through other fibres instead of past them: crossings are Poisson with mean tau, and each hands on
+// the share `forward` (Zinke 2008, eq. 5 and 6, summed over the distribution).
 CURVE_FUNCTION REAL forwarded(REAL forward, REAL tau) { return exp((forward - 1.0f) * tau) - exp(-tau); }
 
 // Fibres that forwarded light has crossed, on average: of a Poisson number, given that it is not 0.
@@ -291,8 +281,8 @@ CURVE_FUNCTION REAL fibres_crossed(REAL forward, REAL tau)
     return SELECT(small, met / (1.0f - exp(-max(met, 1e-3f))), met > 1e-3f);
 }
 
-// What the endless stack of fibres behind one throws back (Zinke 2008, eq. 12 and 13, to all orders: what two stacks make
-// of each other, Stokes 1862), less what the fibre itself does.
+// What the endless stack of fibres behind one throws back (Zinke 2008, eq. 12 and 13, to all orders: what two stacks
+// make of each other, Stokes 1862), less what the fibre itself does.
 CURVE_FUNCTION REAL back_albedo(REAL forward, REAL backward)
 {
     REAL q = 1.0f + backward * backward - forward * forward;

@@ -9,6 +9,7 @@
 //   look_sweep       the optical depth along the rays, away from their light
 //   look_sky         what of the sky is left in each coarse voxel, and where it comes from
 //   look_shade       the colour of each place
+//   look_share       how much of the light there comes by way of other fibres
 //   look_surface     that of the head and of other solid things
 //
 // Density is summed in integers, so that it does not hang on who comes first.
@@ -50,14 +51,15 @@ typedef struct LookRay
 
 typedef struct LookFrame
 {
-    float4 eye;      // m; w: share of the strands that are drawn
-    float4 sky;      // radiance, linear
-    float4 tilts[2]; // sine and cosine of the tilt and of twice it, of four times it
+    float4 eye;                               // m; w: share of the strands that are drawn
+    float4 sky;                               // radiance, linear
+    float4 tilts[2];                          // sine and cosine of the tilt and of twice it, of four times it
     float variance, logistic, ior, roughness; // of a fibre
     float per_log;                            // absorption_of() of fibre.h
     int suns, nodes, braided;
     int surfaces; // points of solid things
-    int unused0, unused1, unused2;
+    int stride;   // from strand to strand, for look_share
+    int unused0, unused1;
 } LookFrame;
 
 // A point of something solid.

@@ -70,9 +70,10 @@ static inline Points in_voxels(Points p, float4 direction, float moved, constant
                   (p.z - corner.z) * inverse + (moved * direction.z - 0.5f));
 }
 
-// What look_sky.cl has left of a uniform sky, at a point of one lane: for light that comes straight, and for that of each
-// channel with what fibres hand on; from the half of the sky about `way` (unit length) and from the other. `cosine`: the
-// mean of that to `way` over the half, as what is lit there weighs it: 1/2 for all directions alike, 2/3 for a surface.
+// What look_sky.cl has left of a uniform sky, at a point of one lane: for light that comes straight, and for that of
+// each channel with what fibres hand on; from the half of the sky about `way` (unit length) and from the other.
+// `cosine`: the mean of that to `way` over the half, as what is lit there weighs it: 1/2 for all directions alike, 2/3
+// for a surface.
 typedef struct SkyShares
 {
     float4 front, behind; // straight, red, green, blue
@@ -92,11 +93,11 @@ static inline SkyShares sky_shares(global const float* sky, float x, float y, fl
     const int row = coarse_volume->x * 16, plane = row * coarse_volume->y;
     global const float* at = sky + iz * plane + iy * row + ix * 16;
     const float fx = gx - (float)ix, fy = gy - (float)iy, fz = gz - (float)iz;
-    const float16 low = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
-                            mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 low =
+        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
     at += plane;
-    const float16 high = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
-                             mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 high =
+        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
     const float16 found = mix(low, high, fz);
     const float4 whole_sky = found.lo.lo;
     const float4 lean = cosine * (found.lo.hi * way.x + found.hi.lo * way.y + found.hi.hi * way.z);

@@ -303,6 +303,7 @@ Curves curves_of(const Simulation& simulation, const Taken& taken)
         }
         curves.root_uv.push_back(root_uv(root, groom.center));
         const float bright = ribbon::brightness_of(plain, now.waves, look.laid.own);
+        curves.brightness.push_back(bright);
         for (size_t k = 0; k < points; ++k)
         {
             const float along = float(k) / float(points - 1);

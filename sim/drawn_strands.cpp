@@ -1,6 +1,7 @@
 #include "sim/drawn_strands.h"
 
 #include "sim/exchange/place.h"
+#include "sim/hair_color.h"
 #include "sim/scatter.h"
 
 #include <glm/geometric.hpp>
@@ -94,10 +95,15 @@ static void add_drawn(Groom& groom, StrandGround& ground, DrawnStrand strand, co
         const float length = w.x * ground.lengths[size_t(strand.guide0)] + w.y * ground.lengths[size_t(strand.guide1)] +
                              w.z * ground.lengths[size_t(strand.guide2)];
         strand.root.w = std::min(1.0f, strand.root.w * p.strand_length / std::max(length, 1e-6f));
-        const auto linear = [](const float4& c, float with)
-        { return F4(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z), with); };
+        const auto linear = [](const float4& c)
+        { return F4(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z), 1.0f); };
+        const auto with = [](const float4& color, float more) { return F4(color.x, color.y, color.z, more); };
+        HairParams dyed = p;
+        dyed.look_root_color = linear(p.look_root_color);
+        dyed.look_tip_color = linear(p.look_tip_color);
+        take_pigment(dyed);
         const float waves = waves_are_shape(ground.shaping.params) ? 0.0f : 1.0f; // nothing is left to lay on
-        groom.looks.push_back({linear(p.look_root_color, p.look_width), linear(p.look_tip_color, p.look_opacity),
+        groom.looks.push_back({with(dyed.look_root_color, p.look_width), with(dyed.look_tip_color, p.look_opacity),
                                F4(waves * p.wave_normal_amplitude, p.wave_normal_frequency,
                                   waves * p.wave_binormal_amplitude, p.wave_binormal_frequency),
                                F4(float(strand.seed), curls_are_shape(ground.shaping.params) ? 0.0f : p.curl_radius,

@@ -125,7 +125,7 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
     set_numbers(style.params, info, values);
 }
 
-static toml::table parse_toml(const std::string& text, const fs::path& file)
+toml::table parse_toml(const std::string& text, const fs::path& file)
 try
 {
     refuse_deep_keys(text, file);

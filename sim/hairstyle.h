@@ -96,4 +96,8 @@ void refuse_deep_keys(const std::string& text, const std::filesystem::path& file
 std::filesystem::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
                                    const std::filesystem::path& shipped);
 
+// Where the file lies that the style's TEXT `key` names, as resolve_path() finds it; shipped are lights among
+// hairstyles/lights/, all else among assets/.
+std::filesystem::path named_file(const Hairstyle& style, const std::string& key, const std::string& written);
+
 } // namespace coif

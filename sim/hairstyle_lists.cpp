@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace coif
 {
@@ -95,7 +96,7 @@ struct EntryReader
     {
         double v[3];
         if (!read_numbers(node, v, 3))
-            throw wrong(node, name, "must be three numbers in metres");
+            throw wrong(node, name, *bounds.unit ? "must be three numbers in metres" : "must be three numbers");
         return {bounded(node, name, v[0], bounds), bounded(node, name, v[1], bounds),
                 bounded(node, name, v[2], bounds)};
     }
@@ -339,7 +340,8 @@ std::vector<TomlEntry> list_entries(const HostParams& host, const ParamInfo& inf
                              std::erase_if(all,
                                            [&](const auto& field)
                                            {
-                                               const bool needed = field.first == "center" || field.first == "radius";
+                                               const bool needed = field.first == "center" || field.first == "radius" ||
+                                                                   field.first == "direction";
                                                return !needed &&
                                                       std::find(usual.begin(), usual.end(), field) != usual.end();
                                            });
@@ -373,7 +375,7 @@ static void check(const Parting& parting, const EntryReader& at)
 
 static void check(const Light& light, const EntryReader& at)
 {
-    if (light.direction == glm::vec3(0.0f))
+    if (!points_somewhere(light.direction))
         throw at.wrong(*at.table.get("direction"), "direction", "is no direction: one of its numbers must not be 0");
 }
 
@@ -403,10 +405,27 @@ static void check(const Tie& tie, const EntryReader& at)
         throw at.wrong(*at.table.get("axis"), "axis", "must point somewhere, but is zero");
 }
 
-static size_t most_of(const ParamInfo& info)
+bool points_somewhere(const glm::vec3& direction) { return glm::dot(direction, direction) > 1e-12f; }
+
+size_t most_entries(const ParamInfo& list)
 {
-    return info.group == std::string_view("collider") ? MOST_COLLIDERS / 2 : 64;
+    const std::string_view name = list.group;
+    return name == "collider" ? MOST_COLLIDERS / 2 : name == "light" ? kMostLights : 64;
 }
+
+Sky read_sky(const fs::path& file, const toml::node& node)
+{
+    const toml::table* table = node.as_table();
+    if (!table)
+        throw fail("{}: sky must be written as a [sky] table", place(file, node.source()));
+    Sky sky;
+    EntryReader reader{file, "sky", *table};
+    fields(reader, sky);
+    reader.finish();
+    return sky;
+}
+
+TomlEntry sky_entry(const Sky& sky) { return written(sky); }
 
 void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
@@ -414,9 +433,9 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
     const toml::array* array = node.as_array();
     if (!array)
         throw fail("{}: {} must be written as [[{}]] tables", place(file, node.source()), info.group, info.group);
-    if (array->size() > most_of(info))
+    if (array->size() > most_entries(info))
         throw fail("{}: {} {} are more than the {} that coif takes", place(file, node.source()), array->size(),
-                   plural(info), most_of(info));
+                   plural(info), most_entries(info));
     with_list(style.host, info,
               [&](auto& list)
               {

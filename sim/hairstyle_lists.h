@@ -19,6 +19,10 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node);
 // What the style's files beside it hold: strand shapes, and the values of large maps. Throws Error with the place.
 void load_beside(Hairstyle& style);
 
+// [sky] of a file of lights. Throws Error with the place.
+Sky read_sky(const std::filesystem::path& file, const toml::node& node);
+TomlEntry sky_entry(const Sky& sky);
+
 // Entries as they are to be written: what differs from the defaults.
 std::vector<TomlEntry> list_entries(const HostParams& host, const ParamInfo& info);
 

@@ -1,5 +1,6 @@
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
+#include "sim/source.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -110,6 +111,11 @@ fs::path resolve_path(const Hairstyle& style, const std::string& key, const std:
     const auto at = style.places.find(key);
     throw fail("{}{}: no file '{}', neither as {} nor as {}", at == style.places.end() ? "" : at->second + ": ", key,
                written, beside.string(), data.string());
+}
+
+fs::path named_file(const Hairstyle& style, const std::string& key, const std::string& written)
+{
+    return resolve_path(style, key, written, data_folder() / (key == "look.lights" ? "hairstyles/lights" : "assets"));
 }
 
 // The style with its relative paths turned from its own folder to the target's.

@@ -1,8 +1,9 @@
 #pragma once
-#include "sim/hairstyle.h"
+#include "sim/light_file.h"
 
 #include <glm/vec3.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace coif
@@ -23,7 +24,12 @@ struct Lighting
     glm::vec3 sky{0.0f}; // radiance, linear: a white wall in it is as bright
 };
 
-// Those of the style's [[light]], else the one of look.light_direction; with the sky of look.sky_*.
+// The style as it is lit: with the lights of a file that it shares, if it names one, for its own. What knows but one
+// light, level kajiya_kay, has the strongest of several as look.light_*, its colour as bright as it goes.
+Hairstyle lit(Hairstyle style, const std::optional<LightRig>& shared);
+
+// Of what lit() gives: its [[light]], else the one of look.light_direction; with the sky of look.sky_*. What shines not
+// is left out.
 Lighting lighting_of(const HairParams& authored, const HostParams& host);
 
 } // namespace coif

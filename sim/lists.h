@@ -83,6 +83,15 @@ struct Light
     float angle = 0.0f;                      // deg: radius of its disc in the sky
     bool operator==(const Light&) const = default;
 };
+constexpr size_t kMostLights = 16; // each costs a sweep through the hair
+
+// The light from all around, of a file of lights: a style says its own as look.sky_*.
+struct Sky
+{
+    glm::vec3 color{1.0f}; // sRGB
+    float radiance = 0.0f; // how bright a white wall is in it
+    bool operator==(const Sky&) const = default;
+};
 
 // As kernels/params.def calls them.
 using light_entry = Light;
@@ -146,6 +155,14 @@ void fields(Visitor& visit, Entry& entry)
 }
 
 template <typename Visitor, typename Entry>
+requires std::same_as<std::remove_const_t<Entry>, Sky>
+void fields(Visitor& visit, Entry& entry)
+{
+    visit.color("color", entry.color);
+    visit.number("radiance", entry.radiance, Limits{0.0f, 100.0f, ""}, kNeeded);
+}
+
+template <typename Visitor, typename Entry>
 requires std::same_as<std::remove_const_t<Entry>, ScalpMap>
 void fields(Visitor& visit, Entry& entry)
 {
@@ -174,6 +191,12 @@ void fields(Visitor& visit, Entry& entry)
     visit.number("braid_width", entry.braid_width, Limits{0.004f, 0.3f, "m"});
     visit.number("braid_pitch", entry.braid_pitch, Limits{0.01f, 1.0f, "m"});
 }
+
+// Does a direction say where to? A shorter one is lost in rounding.
+bool points_somewhere(const glm::vec3& direction);
+
+// Entries that a list may have, wherever they come from.
+size_t most_entries(const ParamInfo& list);
 
 // The named parts of a head that Region::where may say.
 const std::vector<std::string>& region_areas();

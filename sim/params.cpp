@@ -1,6 +1,7 @@
 #include "sim/params.h"
 
 #include "sim/error.h"
+#include "sim/hair_color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,7 @@ HairParams device_params(const HairParams& authored)
                 value[i] *= std::numbers::pi_v<float> / 180.0f;
         }
     }
+    take_pigment(params);
     float4& light = params.look_light_direction;
     const float norm = std::sqrt(light.x * light.x + light.y * light.y + light.z * light.z);
     light = norm > 1e-6f ? F4(light.x / norm, light.y / norm, light.z / norm, 0.0f) : F4(0.0f, 1.0f, 0.0f, 0.0f);

@@ -146,7 +146,8 @@ bool has_clumps(const HairParams& params);
 // Linear light for a component of an sRGB colour (IEC 61966-2-1).
 float linear_of_srgb(float component);
 
-// Radians for degrees, linear for sRGB (IEC 61966-2-1), unit length for directions: what kernels and shaders read.
+// Radians for degrees, linear for sRGB (IEC 61966-2-1), unit length for directions, and the hair's colours from its
+// pigment where look.pigment says so: what kernels and shaders read.
 HairParams device_params(const HairParams& authored);
 
 // The same declarations as a std140 block named `params`, since GLSL cannot read params.def itself.

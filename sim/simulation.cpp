@@ -6,7 +6,6 @@
 #include "sim/rest_shape.h"
 #include "sim/scatter.h"
 #include "sim/shaping.h"
-#include "sim/source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +16,6 @@ namespace coif
 
 // m: hair does not follow hollows of less than this radius, ears above all.
 static constexpr float kHollow = 0.035f;
-
-static std::filesystem::path asset(const Hairstyle& style, const std::string& key, const std::string& written)
-{
-    return resolve_path(style, key, written, data_folder() / "assets");
-}
 
 // What is edited must do as what is read: a style that no longer opens would be lost work.
 static void check_lists(const Hairstyle& style, const Scalp& scalp)
@@ -37,7 +31,7 @@ Assets load_assets(const Hairstyle& style)
     Assets assets;
     const auto load = [&](const char* key, const std::string& written, auto&& read)
     {
-        const std::filesystem::path file = asset(style, key, written);
+        const std::filesystem::path file = named_file(style, key, written);
         return placed(style, key, [&] { return read(file); });
     };
     if (style.host.scalp_mesh.empty())
@@ -68,6 +62,7 @@ Assets load_assets(const Hairstyle& style)
         assets.spheres = load("head.spheres", style.host.head_spheres, load_colliders);
     else
         assets.spheres = {{assets.scalp.center, assets.scalp.radius, true, {}}};
+    assets.lights = named_lights(style);
     return assets;
 }
 
@@ -173,9 +168,16 @@ static bool same_group(const char* group, const Hairstyle& a, const Hairstyle& b
                                { return info.group != std::string_view(group) || same_value(a, b, info); });
 }
 
-// Do the shapes that strands are grown in differ, or is there now something to grow that there was not?
+// Do the shapes or the pigments that strands are grown with differ, or is there now something to grow that there was
+// not?
 static bool grown_otherwise(const Hairstyle& a, const Hairstyle& b)
 {
+    const bool melanin = a.params.look_pigment != 0 || b.params.look_pigment != 0;
+    if (melanin && varies(b.host) &&
+        (a.params.look_pigment != b.params.look_pigment ||
+         a.params.look_root_darkening != b.params.look_root_darkening ||
+         a.params.look_azimuthal_roughness != b.params.look_azimuthal_roughness))
+        return true; // each strand has dye colours of its own
     const bool waves = waves_are_shape(a.params), curls = curls_are_shape(a.params);
     return waves != waves_are_shape(b.params) || curls != curls_are_shape(b.params) ||
            ((waves || curls) && !same_group("wave", a, b)) || (curls && !same_group("curl", a, b)) ||
@@ -186,7 +188,7 @@ Simulation::Simulation(const Device& device, Hairstyle style, Falling falling)
     : device_(device), falling_(std::move(falling)), authored_(std::move(style))
 {
     assets_ = load_assets(authored_);
-    style_ = meet_tolerance(device_, authored_, assets_, quality_);
+    style_ = lit(meet_tolerance(device_, authored_, assets_, quality_), assets_.lights);
     solver_ = std::make_unique<Solver>(device_, style_.params, grown(style_, assets_), hand_);
     set_bodies(style_);
     drape();
@@ -273,7 +275,8 @@ static bool same_hair(const Hairstyle& a, const Hairstyle& b)
                                [&](const ParamInfo& info)
                                {
                                    const bool seen_only =
-                                       info.effect == Effect::VIEW && info.path() != "smoothing.subdivisions";
+                                       (info.effect == Effect::VIEW && info.path() != "smoothing.subdivisions") ||
+                                       info.group == std::string_view("look");
                                    return seen_only || same_value(a, b, info);
                                });
 }
@@ -286,10 +289,14 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
                                             [&](const ParamInfo& info)
                                             {
                                                 const bool loaded =
-                                                    info.kind == Kind::TEXT || info.path().starts_with("groom.import");
+                                                    (info.kind == Kind::TEXT && info.path() != "look.lights") ||
+                                                    info.path().starts_with("groom.import");
                                                 return loaded && !same_value(authored, authored_, info);
                                             });
     Assets fresh = meshes ? load_assets(authored) : Assets{}; // may throw; nothing has changed yet
+    std::optional<LightRig> lights = meshes ? fresh.lights : assets_.lights;
+    if (!meshes && authored.host.look_lights != authored_.host.look_lights)
+        lights = named_lights(authored);
     Quality quality = quality_;
     Hairstyle style = authored;
     if (reload || !same_hair(authored, authored_))
@@ -298,6 +305,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         for (const char* kept : kTolerant)
             if (!quality_.rungs.empty())
                 copy_value(style_, style, *find_param(kept));
+    style = lit(std::move(style), lights);
     bool regrow = reload;
     const bool varied = varies(style.host); // then each root has its own of what may vary
     for (const ParamInfo& info : param_table())
@@ -325,6 +333,7 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     solver_->set_params(style.params);
     if (meshes)
         assets_ = std::move(fresh);
+    assets_.lights = std::move(lights);
     set_bodies(style);
     if (style.params.solver_rate != style_.params.solver_rate)
     {
@@ -339,6 +348,16 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         solver_->reset(solver_->head());
         drape();
     }
+}
+
+void Simulation::reload_lights()
+{
+    if (authored_.host.look_lights.empty())
+        return;
+    std::optional<LightRig> fresh = named_lights(authored_);
+    style_ = lit(std::move(style_), fresh);
+    assets_.lights = std::move(fresh);
+    solver_->set_params(style_.params);
 }
 
 void Simulation::play(std::optional<Motion> motion)

@@ -1,6 +1,7 @@
 #pragma once
 #include "sim/distance_grid.h"
 #include "sim/hairstyle.h"
+#include "sim/lights.h"
 #include "sim/mesh.h"
 #include "sim/quality.h"
 #include "sim/solver.h"
@@ -19,6 +20,7 @@ struct Assets
     Scalp scalp;
     Mesh head;                                // m, y up; empty if the style names none
     std::vector<Collider> spheres;            // that stand for the head, unless its grid does
+    std::optional<LightRig> lights;           // of a file, if the style names one
     DistanceGrid distances;                   // to the head's mesh, once a style has asked for them
     std::shared_ptr<const DistanceGrid> grid; // the same with hollows filled, as wide as head.mesh_scale asks
     float grid_scale = 0.0f;                  // that it asked for then
@@ -65,7 +67,8 @@ class Simulation
     const HairParams& params() const
     {
         return style_.params;
-    } // as they are simulated: quality.tolerance has had its say
+    } // as they are simulated: quality.tolerance and the lights have had their say
+    Lighting lighting() const { return lighting_of(style_.params, style_.host); }
     const Quality& quality() const { return quality_; }
     const Assets& assets() const { return assets_; }
     Solver& solver() { return *solver_; }
@@ -74,6 +77,8 @@ class Simulation
     // Takes changed values, doing only what they ask for (ParamInfo::effect). If that fails, the old state stays and
     // Error is thrown. `reload` loads the meshes again though their paths are the same.
     void set_style(const Hairstyle& style, bool reload = false);
+
+    void reload_lights(); // the file of look.lights, if there is one; throws Error, and then nothing has changed
 
     void play(std::optional<Motion> motion); // from its beginning; none: stop where the head is
     bool playing() const { return motion_.has_value(); }

@@ -18,6 +18,16 @@ double sum_of(const PassTimes& times);
 
 size_t grid_voxels(const HairParams& params); // of the density grid
 
+// What is drawn of a step: for pictures between two.
+struct Moment
+{
+    Pose head;
+    glm::dvec3 jumped{0.0};
+    std::vector<float> guides; // as Solver::guide_positions()
+};
+// In a straight line from one to the other, a share of the way; where the head leaps between them, the nearer one.
+Moment between(const Moment& a, const Moment& b, double share);
+
 // Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
 // positions back; nothing in between touches the host. Throws Error for what the device refuses; where that is memory,
 // all stays as it was.
@@ -49,7 +59,7 @@ class Solver
     // changes.
     bool asleep() const { return asleep_; }
     long drawings() const { return drawings_; } // that draw() has made anew
-    void keep_awake() { changed_ = true; } // for the next step and draw
+    void keep_awake() { changed_ = true; }      // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
 
     // Views of results; they wait for the device. Layouts: kernels/shared.h, drawn nodes strand after strand.
@@ -70,6 +80,9 @@ class Solver
     std::vector<Capsule> placed_colliders() const; // relative to the head's origin, at the last step
     const PlacedGrid& body() const { return body_; }
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
+    Moment moment() const;                        // as it is; waits for the device
+    // For the next draw(). Before the next step the moment that was must be shown again.
+    void show(const Moment& moment);
     PassTimes take_times();
 
     // Buffers by kernel argument; kernels in use, by file and options.

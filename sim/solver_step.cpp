@@ -307,6 +307,33 @@ void Solver::draw()
     launch_strands("transport_frames", braided + (has_clumps(params_) ? "-D CLUMPS " : ""), groom_.drawn.size());
 }
 
+Moment Solver::moment() const
+{
+    const Mapped guides = guide_positions();
+    const float* x = guides.as<float>();
+    return {head_, jumped_, std::vector<float>(x, x + guides.bytes() / sizeof(float))};
+}
+
+void Solver::show(const Moment& moment)
+{
+    send("position", moment.guides.data(), moment.guides.size() * sizeof(float));
+    head_ = moment.head;
+    jumped_ = moment.jumped;
+    drawn_asleep_ = false;
+}
+
+Moment between(const Moment& a, const Moment& b, double share)
+{
+    if (a.jumped != b.jumped || a.guides.size() != b.guides.size())
+        return share < 0.5 ? a : b;
+    Moment m = b; // and its wind
+    m.head.origin = a.head.origin + (b.head.origin - a.head.origin) * share;
+    m.head.turn = a.head.turn == b.head.turn ? b.head.turn : glm::slerp(a.head.turn, b.head.turn, share);
+    for (size_t i = 0; i < m.guides.size(); ++i)
+        m.guides[i] = a.guides[i] + (b.guides[i] - a.guides[i]) * float(share);
+    return m;
+}
+
 double sum_of(const PassTimes& times)
 {
     double ms = 0.0;

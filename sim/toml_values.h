@@ -15,6 +15,9 @@ inline std::string place(const std::filesystem::path& file, const toml::source_r
     return fmt::format("{}:{}:{}", file.string(), region.begin.line, region.begin.column);
 }
 
+// Throws Error with the place for what is no TOML.
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file);
+
 // What a value is, for errors: "a number".
 const char* type_name(const toml::node& node);
 

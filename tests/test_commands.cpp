@@ -28,6 +28,68 @@ TEST_F(Commands, a_transparent_shot_has_nothing_in_its_corners)
     EXPECT_EQ(image.pixels[size_t(4) * (80 * 200 + 100) + 3], 255) << "the head is in the middle";
 }
 
+TEST_F(Commands, lights_are_shared_by_name)
+{
+    const std::string shot = "shot small.toml --size 120x96 --samples 1 --time 0 ";
+    ASSERT_EQ(coif(shot + "-o own.png").status, 0);
+    const Result rim = coif(shot + "--set look.lights=rim.toml -o rim.png");
+    ASSERT_EQ(rim.status, 0) << rim.err;
+    EXPECT_NE(contents("own.png"), contents("rim.png"));
+    fs::create_directories(folder / "lights");
+    write("lights/mine.toml", "[[light]]\ndirection = [-1, 0, 0.2]\n");
+    ASSERT_EQ(coif("save small.toml --set look.lights=lights/mine.toml -o mine.toml").status, 0);
+    EXPECT_NE(contents("mine.toml").find("[look]\nlights = \"lights/mine.toml\"\n"), std::string::npos);
+    EXPECT_EQ(coif("check mine.toml").status, 0);
+    write("lights/mine.toml", "[[light]]\ndirection = [-1, 0, 0.2]\nirradiance = -1\n");
+    const Result broken = coif("check mine.toml");
+    EXPECT_EQ(broken.status, 1);
+    EXPECT_NE(broken.out.find("lights/mine.toml:3:14: light.irradiance is -1, but must lie in [0, 100]"),
+              std::string::npos)
+        << broken.out;
+    const Result none = coif(shot + "--set look.lights=none.toml -o none.png");
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("--set look.lights: look.lights: no file 'none.toml', neither as"), std::string::npos)
+        << none.err;
+    EXPECT_FALSE(fs::exists(folder / "none.png"));
+}
+
+TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
+{
+    const std::string shot = "shot small.toml --size 64x48 --time 0 ";
+    const Result first = coif(shot + "-o a.png --traced 2"), more = coif(shot + "-o a.png --traced 5");
+    ASSERT_EQ(first.status, 0) << first.err;
+    ASSERT_EQ(more.status, 0) << more.err;
+    EXPECT_NE(more.err.find("goes on from 2 samples"), std::string::npos) << more.err;
+    ASSERT_EQ(coif(shot + "-o b.png --traced 5").status, 0);
+    EXPECT_EQ(contents("a.png"), contents("b.png"));
+    EXPECT_EQ(contents("a.traced"), contents("b.traced"));
+
+    const Result other = coif(shot + "-o a.png --traced 1 --set look.roughness=0.5");
+    EXPECT_EQ(other.status, 0);
+    EXPECT_NE(other.err.find("starts anew"), std::string::npos) << other.err;
+    ASSERT_EQ(coif(shot + "-o t.png --traced 1 --transparent").status, 0);
+    const Image image = load_png(folder / "t.png");
+    EXPECT_EQ(image.pixels[3], 0) << "in the corner";
+    EXPECT_EQ(image.pixels[size_t(4) * (24 * 64 + 32) + 3], 255) << "the head is in the middle";
+}
+
+TEST_F(Commands, a_traced_still_refuses_what_makes_no_sense)
+{
+    for (const char* number : {"0", "-3", "70000"})
+    {
+        const Result result = coif(std::string("shot small.toml -o x.png --traced ") + number);
+        EXPECT_EQ(result.status, 1) << number;
+        EXPECT_NE(result.err.find("expected 1 to 65536"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced many").status, 2);
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4 --frames 0:3").status, 2);
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4 --turntable 3").status, 1);
+    write("x.traced", "my novel");
+    EXPECT_EQ(coif("shot small.toml -o x.png --traced 4").status, 1);
+    EXPECT_EQ(contents("x.traced"), "my novel");
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
 TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout)
 {
     const Result result = coif("report small.toml --motion drag --seconds 0.5 --json");

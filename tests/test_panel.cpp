@@ -187,3 +187,45 @@ TEST_F(Panel, the_filter_leaves_what_contains_it)
     EXPECT_TRUE(state.places.contains("wave.normal_amplitude"));
     EXPECT_FALSE(state.places.contains("strand.length"));
 }
+
+TEST_F(Panel, the_mark_at_a_light_chooses_it_and_a_direction_never_becomes_none)
+{
+    style.host.lights = {Light{"key", {0.0f, 1.0f, 0.0f}}, Light{"rim", {0.0f, 0.5f, -1.0f}}};
+    snprintf(state.filter, sizeof state.filter, "light");
+    frame();
+    frame();
+    const auto mark = [&]
+    {
+        const WidgetPlace place = state.places.at("light[1]");
+        state.places["mark"] = {place.left, place.top, place.left + 10.0f, place.bottom}; // left of its name
+        return click("mark");
+    };
+    EXPECT_FALSE(mark()) << "it changes no light";
+    EXPECT_EQ(state.light, 1u);
+    style.host.look_lights = "soft.toml";
+    state.light = 0;
+    mark();
+    EXPECT_EQ(state.light, 0u) << "grey, since a file's lights shine in their place";
+    style.host.look_lights.clear();
+
+    // The direction of the first is dragged down to 0, and stays what it was.
+    frame();
+    frame();
+    const WidgetPlace first = state.places.at("light[0]");
+    const float row = ImGui::GetFrameHeightWithSpacing(), width = ImGui::GetIO().DisplaySize.x * 0.5f;
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {first.left + 0.5f * width, first.top + 2.5f * row}; // its y
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    for (int i = 0; i < 40; ++i)
+    {
+        io.MousePos.x -= 50.0f; // 0.05 a frame, 1 to -1
+        frame();
+        EXPECT_TRUE(points_somewhere(style.host.lights[0].direction));
+    }
+    io.MouseDown[0] = false;
+    frame();
+    EXPECT_LT(style.host.lights[0].direction.y, 1.0f) << "it was dragged";
+    EXPECT_EQ(style.host.lights[1], (Light{"rim", {0.0f, 0.5f, -1.0f}}));
+}

@@ -198,6 +198,33 @@ TEST_F(Picture, TheSideThatFacesTheLightIsBright)
     EXPECT_GT(right[false], left[false] + 5.0);
 }
 
+TEST_F(Picture, LightsOfAListOrAFileComeFromWhereTheyAre)
+{
+    const Image plain = picture(small_style());
+    double left[2], right[2];
+    for (const bool from_left : {false, true})
+    {
+        Hairstyle style = small_style();
+        style.host.lights = {Light{"weak", {0, 1, 0}, {1, 1, 1}, 0.1f},
+                             Light{"strong", {from_left ? -1.0f : 1.0f, 0.3f, 0.3f}, {1, 1, 1}, 5.0f}};
+        const FrameInput frame = frame_of(style);
+        EXPECT_EQ(frame.lighting.suns.size(), 2u);
+        const Image image = renderer->picture(frame, 320, 180);
+        left[from_left] = brightness(image, 110, 150, 20, 160);
+        right[from_left] = brightness(image, 170, 210, 20, 160);
+    }
+    EXPECT_GT(left[true], right[true] + 5.0);
+    EXPECT_GT(right[false], left[false] + 5.0);
+
+    const double lit = brightness(plain);
+    const FrameInput rim = frame_of(small_style({"look.lights=rim.toml"}));
+    EXPECT_EQ(rim.lighting.suns.size(), 2u);
+    EXPECT_LT(brightness(renderer->picture(rim, 320, 180)), lit - 2.0) << "lit from behind";
+    const FrameInput again = frame_of(small_style());
+    EXPECT_EQ(again.lighting.suns.size(), 1u);
+    EXPECT_EQ(renderer->picture(again, 320, 180).pixels, plain.pixels) << "and without the file as ever";
+}
+
 // Dark hair before a dark backdrop, as most is, has little light to lose and hides little.
 Hairstyle white_style(const char* set)
 {
@@ -239,17 +266,22 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
     // Waves and the light's shadow give all of them something to act on; one multisample more is nothing to see where
     // a software renderer is asked for what it does anyway.
     const std::initializer_list<const char*> base = {"wave.normal_amplitude=0.01", "wave.binormal_amplitude=0.01",
-                                                     "curl.radius=0.01", "frizz.amount=0.005",
-                                                     "smoothing.subdivisions=4"};
-    const FrameInput before = frame_of(small_style(base));
-    const Image reference = renderer->picture(before, 160, 90);
-    EXPECT_TRUE(renderer->picture(before, 160, 90).pixels == reference.pixels);
+                                                     "curl.radius=0.01",           "frizz.amount=0.005",
+                                                     "smoothing.subdivisions=4",   "camera.aperture=20"};
+    const auto two_samples = [](const Hairstyle& style) // a lens is nothing to one
+    {
+        FrameInput frame = frame_of(style);
+        frame.samples = 2;
+        return renderer->picture(frame, 160, 90);
+    };
+    const Image reference = two_samples(small_style(base));
+    EXPECT_TRUE(two_samples(small_style(base)).pixels == reference.pixels);
     int acting = 0;
     for (const ParamInfo& info : param_table())
     {
         const bool listed = read_by_shaders_only().contains(info.path()) || info.path() == "head.mesh_scale";
         if (info.on_host() || (info.effect != Effect::VIEW && !listed) || info.path() == "render.multisample" ||
-            info.path() == "render.method")
+            info.path() == "render.method" || info.path() == "camera.shutter") // of what moves: test_blur.cpp
             continue;
         Hairstyle style = small_style(base);
         float now[kMostNumbers];
@@ -263,7 +295,7 @@ TEST_F(Picture, NoSliderOfTheLookIsDead)
         if (info.path() == "smoothing.subdivisions")
             other[0] = 1;
         set_numbers(style.params, info, other);
-        EXPECT_FALSE(picture(style, 160, 90).pixels == reference.pixels) << info.path();
+        EXPECT_FALSE(two_samples(style).pixels == reference.pixels) << info.path();
         ++acting;
     }
     EXPECT_GT(acting, 25);

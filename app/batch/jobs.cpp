@@ -208,7 +208,8 @@ std::string shot_job(const Options& options, const ShotOptions& shot, const std:
 {
     std::vector<std::string> words = {"shot", options.style};
     append(words, {"--size", fmt::format("{}x{}", shot.width, shot.height)});
-    append(words, {"--samples", std::to_string(shot.samples)});
+    if (shot.samples)
+        append(words, {"--samples", std::to_string(*shot.samples)});
     append(words, {"--motion", options.motion, "--time", fmt::format("{}", options.seconds)});
     const auto add = [&](const char* option, const std::string& value)
     {

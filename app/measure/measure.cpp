@@ -71,6 +71,8 @@ int measure(const Options& options, const MeasureOptions& wanted)
         make_folder(folder);
     const Device device = open_device(options);
     Measuring with{device, wanted.quick};
+    if (!rows_alone)
+        with.folder = folder;
     const Progress line;
 
     std::vector<Row> rows;

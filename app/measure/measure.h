@@ -22,6 +22,7 @@ struct Measuring
     const Device& device;
     bool quick = false;
     std::function<void(const std::string&)> progress = [](const std::string&) {}; // what is being done now
+    std::filesystem::path folder = {}; // for pictures of what is compared; empty: none are wanted
 };
 
 // One scene of the suite: what it measures and how. To add one, write its function and its line in scenes.cpp.
@@ -67,5 +68,6 @@ std::vector<Row> measure_ratio(const Measuring&);         // copies against mixe
 std::vector<Row> measure_voxels(const Measuring&);        // A13: voxels.cpp
 std::vector<Row> measure_grid(const Measuring&);          // grid resolution: voxels.cpp
 std::vector<Row> measure_picture(const Measuring&);       // picture error: picture.cpp
+std::vector<Row> measure_look(const Measuring&);          // levels of the look: look.cpp
 
 } // namespace coif

@@ -32,6 +32,7 @@ const std::vector<Scene>& scenes()
         {"ratio", "Share of turned copies among the drawn strands", measure_ratio},
         {"grid", "Resolution of the density grid", measure_grid},
         {"picture", "Pictures against one with everything simulated", measure_picture},
+        {"look", "Levels of the look against traced light", measure_look},
     };
     return all;
 }

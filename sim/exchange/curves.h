@@ -18,6 +18,7 @@ struct Curves
     std::vector<glm::vec3> position; // [point] m
     std::vector<float> width;        // [point] diameter, m
     std::vector<glm::vec3> color;    // [point] linear RGB
+    std::vector<float> brightness;   // [strand] that its colours have been multiplied with
     std::vector<glm::vec2> root_uv;  // [strand] on the scalp, v up
     std::vector<int32_t> id;         // [strand]
     std::vector<uint8_t> guide;      // [strand] 1: simulated, 0: drawn

@@ -69,6 +69,17 @@ inline void add_entry(std::vector<Tie>& list, std::mt19937& random)
     list.push_back(tie);
 }
 
+inline void add_entry(std::vector<Light>& list, std::mt19937& random)
+{
+    Light light;
+    light.name = random() % 2 ? "key" : "";
+    light.direction = {0.01f * float(random() % 201) - 1.0f, 0.25f, -0.001f * float(random() % 1000)};
+    light.color = {1.0f, float(random() % 256) / 255.0f, 0.125f * float(random() % 9)};
+    light.irradiance = 0.1f * float(random() % 60);
+    light.angle = 0.5f * float(random() % 100);
+    list.push_back(light);
+}
+
 inline void add_entry(Hairstyle& style, const ParamInfo& info, std::mt19937& random)
 {
     with_list(style.host, info, [&](auto& list) { add_entry(list, random); });

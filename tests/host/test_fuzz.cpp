@@ -3,7 +3,10 @@
 #include "sim/simulation.h"
 #include "tests/host/scratch.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace coif
 {
@@ -139,10 +142,50 @@ TEST(Fuzz, the_shipped_styles_mutated_are_read_or_refused)
     std::mt19937 random(2);
     for (const auto& entry : fs::directory_iterator(fs::path(COIF_SOURCE_FOLDER) / "hairstyles"))
     {
+        if (!entry.is_regular_file())
+            continue;
         const std::string whole = bytes_of(entry.path());
         for (int trial = 0; trial < 200; ++trial)
             error_of([&] { parse_hairstyle(mutated(whole, random), "bob.toml"); });
     }
+}
+
+TEST(Fuzz, mutated_lights_are_read_or_refused_and_what_is_read_can_be_saved)
+{
+    const Scratch scratch;
+    std::mt19937 random(6);
+    int read = 0, trials = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(COIF_SOURCE_FOLDER) / "hairstyles" / "lights"))
+        for (int trial = 0; trial < 150; ++trial, ++trials)
+        {
+            const std::string text = mutated(bytes_of(entry.path()), random);
+            const fs::path file = scratch.write("lights.toml", text);
+            const std::string error = error_of(
+                [&]
+                {
+                    LightRig rig = load_lights(file);
+                    ++read;
+                    ASSERT_LE(rig.lights.size(), kMostLights);
+                    Hairstyle style;
+                    set_own_lights(style, rig);
+                    style = lit(style, rig);
+                    for (const Sun& sun : lighting_of(style.params, style.host).suns)
+                    {
+                        EXPECT_NEAR(glm::length(sun.direction), 1.0f, 1e-5f);
+                        EXPECT_TRUE(std::isfinite(sun.irradiance.x + sun.irradiance.y + sun.irradiance.z + sun.radius));
+                    }
+                    rig.sky.radiance = 0.123f;
+                    rig.lights.resize(rig.lights.size() / 2);
+                    save_lights(rig, file);
+                    EXPECT_EQ(load_lights(file), rig);
+                });
+            EXPECT_TRUE(error == "no error" || error.rfind(file.string() + ":", 0) == 0) << error;
+            if (testing::Test::HasFailure())
+                FAIL() << error << "\n" << text;
+        }
+    EXPECT_EQ(trials, 600);
+    EXPECT_GT(read, 50);
+    EXPECT_LT(read, 550);
 }
 
 TEST(Fuzz, mutated_assignments_are_taken_or_refused)

@@ -89,6 +89,7 @@ TEST(Sequence, a_picture_never_takes_the_name_of_another)
     scratch.write("my.hair-003.png", "");
     EXPECT_EQ(unused_name(name + ".png"), name + "-002.png");
     EXPECT_EQ(unused_name("no/such/x"), "no/such/x-001.png");
+    EXPECT_EQ(unused_name(name + ".hdr"), name + "-001.hdr");
 }
 
 TEST(Film, its_format_is_in_the_name)

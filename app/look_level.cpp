@@ -1,0 +1,64 @@
+#include "app/look_level.h"
+
+#include "sim/tied_hair.h"
+#include "sim/wave.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace coif
+{
+
+LitScene lit_scene(const Simulation& simulation)
+{
+    const HairParams& p = simulation.params();
+    const Solver& solver = simulation.solver();
+    LitScene scene;
+    scene.solver = &solver;
+    scene.params = device_params(p);
+    scene.waves = wave_table(p);
+    scene.braids = braid_values(solver.groom());
+    scene.lighting = lighting_of(p, simulation.style().host);
+    scene.low = glm::vec3(INFINITY);
+    scene.high = glm::vec3(-INFINITY);
+    glm::vec3 low(INFINITY), high(-INFINITY); // of the head's mesh in its own frame
+    for (const glm::vec3& at : simulation.assets().head.positions)
+    {
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
+    for (int corner = 0; corner < 8 && !simulation.assets().head.positions.empty(); ++corner)
+    {
+        const glm::vec3 at(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
+        const glm::vec3 placed(solver.head().turn * glm::dvec3((at * p.head_mesh_scale + offset) * p.head_scale));
+        scene.low = glm::min(scene.low, placed);
+        scene.high = glm::max(scene.high, placed);
+    }
+    return scene;
+}
+
+std::vector<LevelError> level_errors(Shading& shading)
+{
+    constexpr double kFit = 0.05; // Karis' fit against the far field: measured, see README
+    const double handed = shading.handed_on_share();
+    return {{LOOK_FAR_FIELD, handed}, {LOOK_KARIS, handed + kFit}, {LOOK_DUAL_SCATTERING, 0.0}};
+}
+
+int chosen_level(const HairParams& params, const std::vector<LevelError>& errors)
+{
+    if (params.look_level != LOOK_AUTO)
+        return params.look_level;
+    for (const LevelError& error : errors)
+        if (error.left_out <= 0.01 * double(params.look_tolerance))
+            return error.level;
+    return LOOK_DUAL_SCATTERING;
+}
+
+const char* level_name(int level)
+{
+    const char* const names[] = {"auto", "kajiya_kay", "karis", "far_field", "dual_scattering"};
+    return names[level];
+}
+
+} // namespace coif

@@ -1,0 +1,305 @@
+// The levels of the look against light that is followed through the same strands (app/traced). Compared are the hair's
+// pixels alone, and neither pixel by pixel: a strand's glint is noise to both. What counts is how much light there is
+// in each channel, where it is over half a dozen pixels, and the locks. How far two traced pictures with other random
+// numbers are apart stands beside it.
+#include "app/display.h"
+#include "app/measure/measure.h"
+#include "app/renderer.h"
+#include "app/shading.h"
+#include "app/sheet.h"
+#include "app/ssim.h"
+#include "app/traced/accumulation.h"
+#include "sim/distance_grid.h"
+#include "sim/error.h"
+#include "sim/source.h"
+
+#include <glm/geometric.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <span>
+
+namespace coif
+{
+
+namespace
+{
+struct Pigment
+{
+    const char* name;
+    float eumelanin, pheomelanin;
+    double locks; // SSIM that dual scattering is to reach
+};
+constexpr Pigment kPigments[] = {{"brown", 1.3f, 0.2f, 0.93},
+                                 {"blond", 0.3f, 0.1f, 0.91},
+                                 {"black", 8.0f, 0.0f, 0.90},
+                                 {"red", 0.3f, 1.0f, 0.91},
+                                 {"white", 0.01f, 0.0f, 0.85}};
+
+struct Lights
+{
+    const char* name;
+    std::vector<Light> lights; // whose colours are linear here
+    glm::vec3 sky;
+};
+
+constexpr double kRadiance = 0.15, kRoughly = 0.23; // what dual scattering may be off by, and over 6 pixels
+constexpr float kHair = 0.6f;                       // share of a pixel that makes it the hair's
+constexpr double kFar = 6.0, kLocks = 2.0;          // pixels that pictures are blurred by
+} // namespace
+
+static std::vector<Lights> lights_of()
+{
+    const auto light = [](const char* name, glm::vec3 towards, float irradiance)
+    {
+        Light one;
+        one.name = name;
+        one.direction = glm::normalize(towards);
+        one.irradiance = irradiance;
+        return one;
+    };
+    return {{"key, rim and sky",
+             {light("key", {-0.55f, 0.75f, 0.75f}, 2.5f), light("rim", {0.75f, 0.55f, -0.85f}, 2.35f)},
+             glm::vec3(0.27f)},
+            {"from the front", {light("front", {0.3f, 0.25f, 0.95f}, 3.0f)}, glm::vec3(0.0f)},
+            {"from behind", {light("back", {-0.2f, 0.45f, -0.9f}, 3.0f)}, glm::vec3(0.0f)}};
+}
+
+// Gaussian, separable, of all channels; the border is repeated.
+static std::vector<float> blurred(const std::vector<float>& values, int width, int height, int channels, double sigma)
+{
+    const int reach = int(std::ceil(3.0 * sigma));
+    std::vector<double> weight;
+    double all = 0.0;
+    for (int d = -reach; d <= reach; ++d)
+    {
+        weight.push_back(std::exp(-0.5 * d * d / (sigma * sigma)));
+        all += weight.back();
+    }
+    std::vector<float> from = values, to(values.size());
+    for (const bool across : {true, false})
+    {
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < channels; ++c)
+                {
+                    double sum = 0.0;
+                    for (int d = -reach; d <= reach; ++d)
+                    {
+                        const int i = across ? std::clamp(x + d, 0, width - 1) : x;
+                        const int j = across ? y : std::clamp(y + d, 0, height - 1);
+                        sum += weight[size_t(d + reach)] * double(from[size_t((j * width + i) * channels + c)]);
+                    }
+                    to[size_t((y * width + x) * channels + c)] = float(sum / all);
+                }
+        std::swap(from, to);
+    }
+    return from;
+}
+
+// As it is shown, blurred to the size of locks.
+static Image locks_of(const LinearImage& light, const HairParams& params)
+{
+    Image image = displayed(light, params);
+    const std::vector<float> bytes(image.pixels.begin(), image.pixels.end());
+    const std::vector<float> soft = blurred(bytes, image.width, image.height, 4, kLocks);
+    for (size_t i = 0; i < soft.size(); ++i)
+        image.pixels[i] = static_cast<unsigned char>(soft[i] + 0.5f);
+    return image;
+}
+
+// Over the pixels of `hair`, and weighted by it.
+struct Likeness
+{
+    glm::dvec3 radiance{0.0}; // against the reference's, a channel
+    double roughly = NAN;     // root mean square of what is left after a blur, against the reference's
+    double locks = NAN;       // SSIM
+};
+
+static Likeness likeness(const LinearImage& image, const LinearImage& reference, const std::vector<float>& hair,
+                         const HairParams& params)
+{
+    Likeness like;
+    glm::dvec3 ours(0.0), theirs(0.0);
+    Mask mask(hair.size());
+    std::vector<float> covered[2];
+    for (size_t i = 0; i < hair.size(); ++i)
+    {
+        mask[i] = hair[i] > kHair;
+        for (int c = 0; c < 3; ++c)
+        {
+            const float a = image.pixels[4 * i + size_t(c)], b = reference.pixels[4 * i + size_t(c)];
+            covered[0].push_back(a * hair[i]);
+            covered[1].push_back(b * hair[i]);
+            if (mask[i])
+            {
+                ours[c] += double(a);
+                theirs[c] += double(b);
+            }
+        }
+    }
+    for (int c = 0; c < 3; ++c)
+        like.radiance[c] = ours[c] / std::max(theirs[c], 1e-12);
+    const std::vector<float> a = blurred(covered[0], image.width, image.height, 3, kFar);
+    const std::vector<float> b = blurred(covered[1], image.width, image.height, 3, kFar);
+    double off = 0.0, size = 0.0;
+    for (size_t i = 0; i < a.size(); ++i)
+        if (mask[i / 3])
+        {
+            off += double(a[i] - b[i]) * double(a[i] - b[i]);
+            size += double(b[i]) * double(b[i]);
+        }
+    like.roughly = std::sqrt(off / std::max(size, 1e-12));
+    like.locks = ssim(locks_of(image, params), locks_of(reference, params), mask);
+    return like;
+}
+
+// Traced anew, or as it was before for the same input.
+static Accumulation traced(const Tracer& tracer, int width, int height, uint32_t samples, uint64_t seed)
+{
+    const Hash hash = hash_of(tracer.scene());
+    const std::filesystem::path folder = cache_folder();
+    const std::filesystem::path file =
+        folder / fmt::format("traced-{:016x}{:016x}-{}x{}-{}.traced", hash.word[0], hash.word[1], width, height, seed);
+    Accumulation picture = empty_accumulation(width, height);
+    if (std::optional<Record> before = folder.empty() ? std::nullopt : read_record(file))
+        picture = std::move(before->picture);
+    if (picture.fewest() < samples)
+    {
+        TraceLimits limits;
+        limits.seed = seed;
+        tracer.trace(picture, samples, limits);
+        if (!folder.empty())
+        {
+            make_folder(folder);
+            write_record(file, hash, picture);
+        }
+    }
+    return picture;
+}
+
+static void add_rows(std::vector<Row>& rows, const Row& base, const Likeness& like, const Pigment* judged)
+{
+    Row row = base;
+    const char* channels[] = {"red", "green", "blue"};
+    for (int c = 0; c < 3; ++c)
+    {
+        row.metric = fmt::format("radiance, {}", channels[c]);
+        row.measured = like.radiance[c];
+        row.error = std::abs(like.radiance[c] - 1.0);
+        row.pass = judged ? kRadiance : NAN;
+        rows.push_back(row);
+    }
+    row.measured = NAN;
+    row.metric = "radiance, over 6 pixels";
+    row.error = like.roughly;
+    row.pass = judged ? kRoughly : NAN;
+    rows.push_back(row);
+    row.metric = "locks";
+    row.unit = "SSIM";
+    row.error = like.locks;
+    row.at_least = true;
+    row.pass = judged ? judged->locks : NAN;
+    rows.push_back(row);
+}
+
+namespace
+{
+// A row for each pigment, with the levels and the traced picture side by side.
+struct Comparison
+{
+    int columns = LOOK_DUAL_SCATTERING + 1;
+    SheetLayout at;
+    Image page;
+    int cell = 0;
+
+    Comparison(int pigments, int width, int height)
+        : at(lay_out(columns * pigments, columns, width, height)), page(empty_sheet(at))
+    {
+    }
+    void put(const LinearImage& light, const HairParams& params, const std::string& label)
+    {
+        const Image image = displayed(light, params);
+        put_cell(page, at, cell++, &image, label);
+    }
+};
+} // namespace
+
+std::vector<Row> measure_look(const Measuring& with)
+{
+    const Window window(16, 16, Window::HIDDEN);
+    Renderer renderer(data_folder() / "shaders");
+    const int width = with.quick ? 120 : 240, height = with.quick ? 137 : 274, samples = with.quick ? 16 : 48;
+    const std::vector<std::string> levels = param_labels(*find_param("look.level"));
+    std::vector<Row> rows;
+    for (const char* name : {"bob", "wavy", "curly"})
+    {
+        if (with.quick && std::string(name) != "bob")
+            continue;
+        Hairstyle style = load_hairstyle(find_style(name));
+        style.host.lights.clear();
+        Simulation simulation(with.device, style);
+        simulation.solver().draw();
+        Camera camera = camera_of(style.params);
+        camera.distance = 0.8;
+        for (const Lights& lights : lights_of())
+        {
+            if (with.quick && lights.sky.x == 0.0f)
+                continue;
+            const std::span pigments = std::span(kPigments).first(with.quick ? 2 : std::size(kPigments));
+            Comparison sheet(int(pigments.size()), width, height);
+            for (const Pigment& pigment : pigments)
+            {
+                const std::string setting = fmt::format("{}, {}, {}", name, pigment.name, lights.name);
+                with.progress(setting);
+                style.params.look_pigment = 1;
+                style.params.look_eumelanin = pigment.eumelanin;
+                style.params.look_pheomelanin = pigment.pheomelanin;
+                style.host.lights = lights.lights;
+                simulation.set_style(style);
+                simulation.solver().draw();
+                FrameInput frame = frame_input(simulation, camera);
+                frame.lighting.sky = lights.sky;
+                frame.samples = 16;
+                frame.transparent = true;
+
+                const Tracer tracer(traced_scene(frame));
+                const std::vector<float> hair = tracer.hair(width, height, 16);
+                const LinearImage truth = mean_of(traced(tracer, width, height, uint32_t(samples), 0));
+                const LinearImage again = mean_of(traced(tracer, width, height, uint32_t(samples), 1));
+                HairParams shown = simulation.params();
+                shown.look_level = LOOK_DUAL_SCATTERING; // all through one display transform
+
+                Row row;
+                row.scene = "look";
+                row.setting = setting;
+                row.solver = solver_name(style.params);
+                row.reference = fmt::format("{} samples traced a pixel", samples);
+                for (int level = LOOK_KAJIYA_KAY; level <= LOOK_DUAL_SCATTERING; ++level)
+                {
+                    frame.params.look_level = level;
+                    const auto begin = std::chrono::steady_clock::now();
+                    const LinearImage image = renderer.linear_picture(frame, width, height);
+                    row.ms =
+                        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+                    row.knob = levels[size_t(level)];
+                    const bool best = level == LOOK_DUAL_SCATTERING;
+                    add_rows(rows, row, likeness(image, truth, hair, shown), best ? &pigment : nullptr);
+                    sheet.put(image, shown, fmt::format("{}, {}", pigment.name, row.knob));
+                }
+                sheet.put(truth, shown, fmt::format("{}, traced", pigment.name));
+                row.knob = "traced again";
+                row.ms = NAN;
+                add_rows(rows, row, likeness(again, truth, hair, shown), nullptr);
+            }
+            if (!with.folder.empty())
+            {
+                make_folder(with.folder / "look");
+                save_png(with.folder / "look" / fmt::format("{}, {}.png", name, lights.name), sheet.page);
+            }
+        }
+    }
+    return rows;
+}
+
+} // namespace coif

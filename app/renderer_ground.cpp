@@ -1,0 +1,96 @@
+// The plain ground under the head. It lies still in the world, though a leap of the head takes it along as it does the
+// camera.
+#include "app/renderer.h"
+
+#include "sim/strand_shapes.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+
+static constexpr int kSquares = 96; // a side; light is found at corners, so they are smaller where shadows fall
+
+// Height of the lowest point of head and resting hair while the head stands upright at the world's origin, m.
+static float lowest_point(const FrameInput& frame)
+{
+    const HairParams& p = frame.params;
+    const Solver& solver = frame.simulation->solver();
+    const Assets& assets = frame.simulation->assets();
+    float lowest =
+        assets.head.positions.empty() ? (assets.scalp.center.y - assets.scalp.radius) * p.head_scale : INFINITY;
+    for (const glm::vec3& at : assets.head.positions)
+        lowest = std::min(lowest, (at.y * p.head_mesh_scale + p.head_offset.y) * p.head_scale);
+    const Groom& groom = solver.groom();
+    for (int g = 0; g < groom.guides; ++g)
+        for (int k = 1; k < groom.nodes; ++k)
+            lowest = std::min(lowest, float(vector_at(solver.rest_positions().data(), g, k, groom.nodes).y));
+    return lowest;
+}
+
+void Renderer::upload_ground(const FrameInput& frame)
+{
+    if (frame.params.look_ground == 0)
+        return;
+    const Groom& groom = frame.simulation->solver().groom();
+    const float height = lowest_point(frame), radius = 6.0f * groom.extent + 2.0f * groom.longest;
+    if (ground_height_ == height && ground_radius_ == radius)
+        return;
+    ground_height_ = height;
+    ground_radius_ = radius;
+    const auto across = [radius](int i)
+    {
+        const float u = 2.0f * float(i) / kSquares - 1.0f;
+        return radius * (0.3f * u + 0.7f * u * u * u);
+    };
+    std::vector<unsigned> faces;
+    ground_.clear();
+    for (int i = 0; i <= kSquares; ++i)
+        for (int j = 0; j <= kSquares; ++j)
+        {
+            ground_.insert(ground_.end(), {across(i), height, across(j), 0.0f, 1.0f, 0.0f, 0.0f});
+            const unsigned a = unsigned(i * (kSquares + 1) + j), b = a + kSquares + 1;
+            if (i < kSquares && j < kSquares)
+                faces.insert(faces.end(), {a, a + 1, b, b, a + 1, b + 1});
+        }
+    ground_index_count_ = GLsizei(faces.size());
+    glBindVertexArray(ground_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, ground_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(ground_.size() * sizeof(float)), ground_.data(), GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, ground_indices_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(faces.size() * sizeof(unsigned)), faces.data(), GL_STATIC_DRAW);
+}
+
+// Before all else, for it fades into the backdrop towards its rim. From below there is nothing: it would hide the head.
+void Renderer::draw_ground(const FrameInput& frame, const ShaderProgram& program, glm::vec3 eye)
+{
+    const Solver& solver = frame.simulation->solver();
+    const glm::vec3 moved(solver.jumped() - solver.head().origin);
+    if (frame.params.look_ground == 0)
+        return;
+    glBindVertexArray(ground_array_);
+    next_colors(ground_.size() / 7);
+    if (eye.y <= ground_height_ + moved.y)
+        return;
+    const float4 backdrop = device_params(frame.params).look_background;
+    glUseProgram(program.id());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_3D, depth_texture_);
+    glUniform1i(program.uniform("optical_depth"), 0);
+    glUniform4f(program.uniform("albedo"), backdrop.x, backdrop.y, backdrop.z, 0.0f);
+    glUniform4f(program.uniform("place"), moved.x, moved.y, moved.z, 1.0f);
+    glUniform1i(program.uniform("on_head"), 0);
+    glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
+    glUniform1i(program.uniform("worked_out"), shaded_);
+    glUniform1f(program.uniform("fades_at"), ground_radius_);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawElements(GL_TRIANGLES, ground_index_count_, GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_BLEND);
+    glUniform1f(program.uniform("fades_at"), 0.0f);
+}
+
+} // namespace coif

@@ -1,0 +1,134 @@
+#include "app/traced/shoot.h"
+
+#include "app/display.h"
+#include "app/progress.h"
+#include "app/shading.h"
+#include "app/traced/accumulation.h"
+#include "sim/error.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+namespace coif
+{
+
+static volatile std::sig_atomic_t asked_to_stop = 0;
+
+namespace
+{
+// While it lives the first Ctrl-C asks to stop; a second one does.
+struct Stoppable
+{
+    void (*interrupt)(int);
+    void (*terminate)(int);
+    Stoppable()
+    {
+        asked_to_stop = 0;
+        const auto ask = [](int signal)
+        {
+            asked_to_stop = 1;
+            std::signal(signal, SIG_DFL);
+        };
+        interrupt = std::signal(SIGINT, ask);
+        terminate = std::signal(SIGTERM, ask);
+    }
+    ~Stoppable()
+    {
+        std::signal(SIGINT, interrupt);
+        std::signal(SIGTERM, terminate);
+    }
+};
+} // namespace
+
+// shaders/background.frag behind it.
+static void put_backdrop(LinearImage& image, const HairParams& params)
+{
+    const float4 c = device_params(params).look_background;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+        {
+            const glm::vec2 at((float(x) + 0.5f) / float(image.width), 1.0f - (float(y) + 0.5f) / float(image.height));
+            const glm::vec2 p = (at - glm::vec2(0.5f, 0.55f)) * glm::vec2(1.2f, 1.0f);
+            const float glow = glm::mix(1.25f, 0.6f, glm::smoothstep(0.0f, 0.8f, glm::length(p)));
+            float* pixel = &image.pixels[4 * (size_t(y) * size_t(image.width) + size_t(x))];
+            const float open = glow * (1.0f - pixel[3]);
+            pixel[0] += open * c.x;
+            pixel[1] += open * c.y;
+            pixel[2] += open * c.z;
+            pixel[3] = 1.0f;
+        }
+}
+
+static std::string duration(double seconds)
+{
+    return seconds < 90.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+int shoot_traced(const Options& options, const ShotOptions& shot, int samples, double turn)
+{
+    if (samples < 1 || samples > kMostTraced)
+        throw fail("--traced {}: expected 1 to {} samples a pixel", samples, kMostTraced);
+    check_shot(options, shot);
+    check_folder(options.output);
+    const std::filesystem::path file = record_of(options.output);
+    std::optional<Record> before = read_record(file);
+    const Hairstyle style = load_style(options);
+    const Motion motion = find_motion(options.motion);
+    const Device device = open_device(options);
+    const Progress progress;
+    progress.say(style.name() + ": falls to rest");
+    Simulation simulation(device, style);
+    simulation.play(motion);
+    progress.say(style.name() + ": moves");
+    play_to(simulation, options.seconds);
+    simulation.solver().draw();
+    HairParams params = simulation.params();
+    params.look_level = LOOK_DUAL_SCATTERING; // shown as the levels that reckon with the strength of light are
+    const Tracer tracer(traced_scene(frame_input(simulation, shot_camera(simulation, shot, turn))));
+
+    const Hash hash = hash_of(tracer.scene());
+    Accumulation picture = empty_accumulation(shot.width, shot.height);
+    progress.clear();
+    if (before && before->of.word[0] == hash.word[0] && before->of.word[1] == hash.word[1] &&
+        before->picture.width == shot.width && before->picture.height == shot.height)
+    {
+        picture = std::move(before->picture);
+        fmt::print(stderr, "{}: goes on from {} samples a pixel\n", file.string(), picture.fewest());
+    }
+    else if (before)
+        fmt::print(stderr, "{}: is of another picture, so this one starts anew\n", file.string());
+    before.reset();
+
+    const Stoppable stoppable;
+    const auto say = [&](double share, double left)
+    {
+        progress.say(fmt::format("{}: traced {:.0f} %, {} left", style.name(), 100.0 * share, duration(left)));
+        return !asked_to_stop;
+    };
+    tracer.trace(picture, uint32_t(samples), {}, say);
+    progress.clear();
+    write_record(file, hash, picture);
+
+    LinearImage image = mean_of(picture);
+    if (!shot.transparent)
+        put_backdrop(image, params);
+    if (is_linear(options.output))
+        save_hdr(options.output, image, display_of(params).gain);
+    else
+        save_png(options.output, displayed(image, params));
+    if (asked_to_stop)
+    {
+        fmt::print(stderr, "wrote {}, stopped at {} of {} samples; the same command goes on from there\n",
+                   options.output, picture.fewest(), samples);
+        return 1;
+    }
+    fmt::print(stderr, "wrote {}: {} samples a pixel\n", options.output, picture.fewest());
+    return 0;
+}
+
+} // namespace coif
