@@ -213,7 +213,8 @@ TEST(Display, a_transparent_picture_has_plain_alpha)
     LinearImage light{4, 1, {}};
     const float alphas[] = {1.0f, 0.5f, 0.0f, NAN};
     for (const float alpha : alphas)
-        light.pixels.insert(light.pixels.end(), {alpha * color.x, alpha * color.y, alpha * color.z, alpha});
+        for (const float v : {alpha * color.x, alpha * color.y, alpha * color.z, alpha})
+            light.pixels.push_back(v);
     for (const int choice : {kNeutral, kAgx, kNone})
     {
         const Image image = displayed(light, with(choice));
