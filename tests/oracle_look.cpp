@@ -310,7 +310,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
     const Vec n = xyz(surface.normal), p = xyz(surface.position), eye = glm::normalize(xyz(lit.frame.eye) - p);
     const Vec above = p + 1.5 * double(lit.volume.corner.w) * n;
     const double a2 = std::pow(0.45, 4), ne = std::max(1e-3, glm::dot(n, eye));
-    const double reach[3] = {0.5, 0.25, 0.15}; // Lambert's cosine comes around so far
+    const double reach[3] = {0.35, 0.18, 0.12}; // Lambert's cosine comes around so far
     Vec diffuse(0.0), shine(0.0);
     for (int i = 0; i < lit.frame.suns; ++i)
     {
@@ -326,7 +326,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
         for (int c = 0; c < 3; ++c)
         {
             const double e = xyz(ray.irradiance)[c] * std::exp((lit.forward[c] - 1) * tau);
-            const double round = std::max(0.0, glm::dot(n, l) + reach[c]) / std::pow(1 + reach[c], 2);
+            const double round = std::max(0.0, glm::dot(n, l) + reach[c]) / (1 + reach[c]);
             diffuse[c] += e * glm::mix(nl, round, double(surface.albedo.w)) / kPi;
             shine[c] += e * surface.normal.w * d * v * f * nl;
         }

@@ -454,6 +454,28 @@ TEST_F(LookPasses, ColoursAreTheTwins)
     }
 }
 
+TEST_F(LookPasses, TheShareOfLightThatIsHandedOnIsTheTwins)
+{
+    const oracle::Lit lit = hair->lit();
+    double straight = 0.0, handed = 0.0; // of a luminance of Rec. 709
+    for (const float4& place : places)
+        for (size_t i = 0; i < lit.rays.size(); ++i)
+        {
+            const Vec l = xyz(lit.rays[i].direction);
+            const double tau = oracle::depth_at(&lit.depth[i * all], volume, lit.rays[i],
+                                                oracle::in_voxels(xyz(place), volume) + 0.5 * l);
+            const Vec e = xyz(lit.rays[i].irradiance) * Vec(0.2126, 0.7152, 0.0722);
+            for (int c = 0; c < 3; ++c)
+            {
+                straight += e[c] * std::exp(-tau);
+                handed += e[c] * (std::exp((lit.forward[c] - 1.0) * tau) - std::exp(-tau));
+            }
+        }
+    const double expected = handed / (straight + handed);
+    EXPECT_NEAR(hair->shading.handed_on_share(), expected, 1e-4 * expected);
+    EXPECT_GT(expected, 0.02);
+}
+
 std::vector<LookSurface> random_surfaces(int count)
 {
     Random random(8);
@@ -544,6 +566,7 @@ TEST(Look, EqualInputGivesEqualBytesAndNothingIsWrittenOutside)
         EXPECT_TRUE(once == first.bits(level)) << "whatever came in between";
     }
     second.shading.lit(random_surfaces(17), kEye);
+    EXPECT_GT(second.shading.handed_on_share(), 0.0);
     EXPECT_EQ(find_trespasses(guarded), std::vector<std::string>());
 }
 
@@ -746,6 +769,7 @@ TEST(Look, NoHairNoSunAndNoLightAreNoError)
             for (const glm::vec3& color : hair.colors(LOOK_DUAL_SCATTERING))
                 EXPECT_GT(color.x, 0.0f);
             EXPECT_GT(hair.shading.lit(random_surfaces(3), kEye)[0].x, 0.0f);
+            EXPECT_EQ(hair.shading.handed_on_share(), 0.0);
             hair.light({});
             for (const glm::vec3& color : hair.colors(LOOK_DUAL_SCATTERING))
                 EXPECT_EQ(color, glm::vec3(0.0f));

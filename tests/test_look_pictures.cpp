@@ -24,7 +24,7 @@ Hairstyle lit_style(std::initializer_list<const char*> sets = {})
 {
     Hairstyle style;
     for (const char* set : {"interpolation.strands=1200", "grid.resolution=16", "camera.distance=0.7", "look.volume=32",
-                            "look.level=dual_scattering"})
+                            "look.level=dual_scattering", "look.display=none"})
         assign(style, set);
     for (const char* set : sets)
         assign(style, set);
