@@ -46,9 +46,9 @@ void Editor::take_own_lights()
 void Editor::change_light(size_t i, const std::function<void(Light&)>& change)
 {
     std::vector<Light> all = lights();
-    take_own_lights();
     if (i >= all.size())
         return;
+    take_own_lights();
     change(all[i]);
     HairParams& p = style_.params;
     if (!style_.host.lights.empty())

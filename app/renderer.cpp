@@ -27,9 +27,9 @@ struct FrameBlock
 
 struct Renderer::Programs
 {
-    ShaderProgram strand, surface, guide, background, add, show;
+    ShaderProgram strand, surface, ground, guide, background, add, show;
     explicit Programs(const std::filesystem::path& folder)
-        : strand(folder, "strand"), surface(folder, "surface"), guide(folder, "guide"),
+        : strand(folder, "strand"), surface(folder, "surface"), ground(folder, "ground"), guide(folder, "guide"),
           background(folder, "background", "screen"), add(folder, "add", "screen"), show(folder, "show", "screen")
     {
     }
@@ -180,9 +180,7 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
 
     glBindVertexArray(ground_array_);
     glBindBuffer(GL_ARRAY_BUFFER, ground_buffer_);
-    attribute(0, 3, 7 * sizeof(float), 0);
-    attribute(1, 3, 7 * sizeof(float), 3 * sizeof(float));
-    attribute(2, 1, 7 * sizeof(float), 6 * sizeof(float));
+    attribute(0, 3, 0, 0);
 
     glGenTextures(1, &depth_texture_);
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
@@ -489,7 +487,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     }
     glEnable(GL_DEPTH_TEST);
     colors_at_ = 0;
-    draw_ground(frame, programs_->surface, eye);
+    draw_ground(frame, programs_->ground, eye);
     draw_solids(frame);
     const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
     if (strands && !rasterised)

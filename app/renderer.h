@@ -122,7 +122,7 @@ class Renderer
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
-    void draw_ground(const FrameInput& frame, const ShaderProgram& surface, glm::vec3 eye);
+    void draw_ground(const FrameInput& frame, const ShaderProgram& program, glm::vec3 eye);
     void draw_strands(const FrameInput& frame);
     void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
@@ -163,7 +163,7 @@ class Renderer
             ground_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
     std::vector<float> mesh_key_;
-    std::vector<float> ground_; // corners, as the head's: in the world, as long as the head has not leapt, m
+    std::vector<float> ground_;                         // corners, in the world as long as the head has not leapt, m
     float ground_height_ = 0.0f, ground_radius_ = 0.0f; // m
     float enclosed_ = 0.0f;                             // radius of a ball inside the head, m, before head.scale
     std::vector<std::pair<float, unsigned>> order_;

@@ -12,7 +12,7 @@
 namespace coif
 {
 
-static constexpr int kSquares = 96; // a side; light is found at corners, so they are smaller where shadows fall
+static constexpr int kSquares = 128; // a side; light is found at corners, so they are smaller where shadows fall
 
 // Height of the lowest point of head and resting hair while the head stands upright at the world's origin, m.
 static float lowest_point(const FrameInput& frame)
@@ -44,14 +44,14 @@ void Renderer::upload_ground(const FrameInput& frame)
     const auto across = [radius](int i)
     {
         const float u = 2.0f * float(i) / kSquares - 1.0f;
-        return radius * (0.3f * u + 0.7f * u * u * u);
+        return radius * (0.25f * u + 0.75f * u * u * u);
     };
     std::vector<unsigned> faces;
     ground_.clear();
     for (int i = 0; i <= kSquares; ++i)
         for (int j = 0; j <= kSquares; ++j)
         {
-            ground_.insert(ground_.end(), {across(i), height, across(j), 0.0f, 1.0f, 0.0f, 0.0f});
+            ground_.insert(ground_.end(), {across(i), height, across(j)});
             const unsigned a = unsigned(i * (kSquares + 1) + j), b = a + kSquares + 1;
             if (i < kSquares && j < kSquares)
                 faces.insert(faces.end(), {a, a + 1, b, b, a + 1, b + 1});
@@ -80,17 +80,14 @@ void Renderer::draw_ground(const FrameInput& frame, const ShaderProgram& program
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_3D, depth_texture_);
     glUniform1i(program.uniform("optical_depth"), 0);
-    glUniform4f(program.uniform("albedo"), backdrop.x, backdrop.y, backdrop.z, 0.0f);
-    glUniform4f(program.uniform("place"), moved.x, moved.y, moved.z, 1.0f);
-    glUniform1i(program.uniform("on_head"), 0);
-    glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
+    glUniform3f(program.uniform("albedo"), backdrop.x, backdrop.y, backdrop.z);
+    glUniform3f(program.uniform("moved"), moved.x, moved.y, moved.z);
+    glUniform1f(program.uniform("rim"), ground_radius_);
     glUniform1i(program.uniform("worked_out"), shaded_);
-    glUniform1f(program.uniform("fades_at"), ground_radius_);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDrawElements(GL_TRIANGLES, ground_index_count_, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_BLEND);
-    glUniform1f(program.uniform("fades_at"), 0.0f);
 }
 
 } // namespace coif

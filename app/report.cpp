@@ -2,7 +2,9 @@
 
 #include "app/csv.h"
 #include "app/json.h"
+#include "app/look_level.h"
 #include "app/progress.h"
+#include "app/renderer.h"
 #include "sim/error.h"
 #include "sim/health.h"
 #include "sim/median.h"
@@ -36,6 +38,53 @@ static std::string json(const std::vector<Bad>& all)
                                       bad.reset.strand, bad.frame, json_number(bad.time), bad.reset.times,
                                       json_text(bad.cause)));
     return fmt::format("[{}]", fmt::join(objects, ", "));
+}
+
+namespace
+{
+struct LookReport // of the levels above Kajiya-Kay, for the hair as it lies at the end
+{
+    int chosen = LOOK_KAJIYA_KAY;
+    double light_ms = 0.0; // for all of them
+    std::vector<LevelError> levels;
+    std::vector<double> ms; // of each
+};
+} // namespace
+
+static LookReport report_look(Simulation& simulation)
+{
+    constexpr int kTimes = 5;
+    LookReport look;
+    look.chosen = simulation.params().look_level;
+    if (look.chosen == LOOK_KAJIYA_KAY)
+        return look;
+    const LitScene scene = lit_scene(simulation);
+    Shading shading(simulation.solver().device());
+    const glm::vec3 eye(camera_of(simulation.params()).position() - simulation.solver().head().origin);
+    shading.light(scene);
+    look.levels = level_errors(shading);
+    look.chosen = chosen_level(simulation.params(), look.levels);
+    std::vector<double> lights;
+    for (int i = 0; i < kTimes; ++i)
+    {
+        shading.take_times();
+        shading.light(scene);
+        lights.push_back(sum_of(shading.take_times()));
+    }
+    look.light_ms = median(lights);
+    for (const LevelError& level : look.levels)
+    {
+        std::vector<double> shades;
+        for (int i = 0; i <= kTimes; ++i)
+        {
+            shading.shade(eye, level.level, 1.0f);
+            const double ms = sum_of(shading.take_times());
+            if (i > 0) // the first compiles
+                shades.push_back(ms);
+        }
+        look.ms.push_back(median(shades));
+    }
+    return look;
 }
 
 int report(const Options& options, const ReportOptions& wanted)
@@ -94,6 +143,7 @@ int report(const Options& options, const ReportOptions& wanted)
         if (f % 10 == 9)
             progress.say(fmt::format("frame {} of {}", f + 1, frames));
     }
+    const LookReport look = report_look(simulation);
     progress.clear();
     // Measured on this motion, where a tolerance was asked for.
     const Quality& quality = simulation.quality();
@@ -126,6 +176,11 @@ int report(const Options& options, const ReportOptions& wanted)
             ran.push_back(fmt::format("{}: {}", json_text(pass), spent.size()));
             passes.push_back(fmt::format("{}: {}", json_text(pass), json_number(median(spent))));
         }
+        std::vector<std::string> levels;
+        for (size_t i = 0; i < look.levels.size(); ++i)
+            levels.push_back(fmt::format("{{\"level\": {}, \"ms_shade\": {}, \"left_out\": {}}}",
+                                         json_text(level_name(look.levels[i].level)), json_number(look.ms[i]),
+                                         json_number(look.levels[i].left_out)));
         const double predicted = quality.rungs.empty() ? NAN : quality.time_error;
         text = fmt::format(
             "{{\"style\": {}, \"motion\": {}, \"device\": {}, \"guides\": {}, \"strands\": {}, \"nodes\": "
@@ -133,13 +188,15 @@ int report(const Options& options, const ReportOptions& wanted)
             "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"bad_strands\": {}, \"dropped_steps\": {}, "
             "\"ms_frame_median\": {}, "
             "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"quality\": {}, "
-            "\"substeps_error_predicted\": {}, \"substeps_error_measured\": {}}}\n",
+            "\"substeps_error_predicted\": {}, \"substeps_error_measured\": {}, \"look\": {{\"level\": {}, "
+            "\"ms_light\": {}, \"levels\": [{}]}}}}\n",
             json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
             groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
             json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
             json(bad), simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "),
             fmt::join(ran, ", "), simulation.solver().asleep(), json_text(quality.said), json_number(predicted),
-            json_number(time_error));
+            json_number(time_error), json_text(level_name(look.chosen)), json_number(look.light_ms),
+            fmt::join(levels, ", "));
     }
     else
     {
@@ -160,6 +217,12 @@ int report(const Options& options, const ReportOptions& wanted)
         for (const auto& [pass, spent] : pass_ms)
             text +=
                 fmt::format("    {:<20} {:.3f} ms, in {} of {} frames\n", pass, median(spent), spent.size(), frames);
+        text += fmt::format("  look         {}\n", level_name(look.chosen));
+        if (!look.levels.empty())
+            text += fmt::format("    light               {:.2f} ms, whatever the level\n", look.light_ms);
+        for (size_t i = 0; i < look.levels.size(); ++i)
+            text += fmt::format("    {:<19} {:.2f} ms, leaves out about {:.0f} % of the light in the hair\n",
+                                level_name(look.levels[i].level), look.ms[i], 100.0 * look.levels[i].left_out);
         if (simulation.solver().asleep())
             text += "  asleep: at rest, nothing runs\n";
         if (!quality.said.empty())

@@ -42,6 +42,7 @@ class Studio
     // Taken from `turn` (rad) further round the camera's target than the options say. Where the shutter is open for a
     // while, its samples are spread over that, to its end: what lies between two steps is where a straight line has it.
     Image picture(double turn = 0.0);
+    LinearImage linear_picture(double turn = 0.0);
     // The same, written: its bytes as PNG, or where the file is called so its light as .hdr. Throws Error.
     void save(const std::filesystem::path& file, double turn = 0.0);
 
@@ -49,7 +50,6 @@ class Studio
     FrameInput frame(double turn);
     double open_steps() const; // that the shutter is open for
     void note_moment(long target);
-    LinearImage linear_picture(double turn);
     LinearImage moving_picture(double turn);
 
     ShotOptions shot_;

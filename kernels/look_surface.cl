@@ -52,7 +52,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
         const LookRay ray = rays[k];
         const float4 l = ray.direction;
         const float e[3] = {ray.irradiance.x, ray.irradiance.y, ray.irradiance.z};
-        const float on[3] = {handed_on.x, handed_on.y, handed_on.z}, reach[3] = {0.5f, 0.25f, 0.15f};
+        const float on[3] = {handed_on.x, handed_on.y, handed_on.z}, reach[3] = {0.35f, 0.18f, 0.12f};
         const real tau = depth_to(depth + k * all, ray, in_voxels(above, l, 0.0f, volume), volume);
         const real cosine = nx * l.x + ny * l.y + nz * l.z;
         const real hx = ex + l.x, hy = ey + l.y, hz = ez + l.z;
@@ -69,9 +69,8 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
         for (int c = 0; c < 3; ++c)
         {
             const real reached = e[c] * exp((on[c] - 1.0f) * tau);
-            const real plain = lit_by, round = fmax(cosine + reach[c], (real)(0.0f)) *
-                                               (1.0f / ((1.0f + reach[c]) * (1.0f + reach[c])));
-            diffuse[c] += reached * mix(plain, round, far) * 0.318309886f;
+            const real round = fmax(cosine + reach[c], (real)(0.0f)) * (1.0f / (1.0f + reach[c]));
+            diffuse[c] += reached * mix(lit_by, round, far) * 0.318309886f;
             shine[c] += reached * ggx;
         }
     }

@@ -25,16 +25,3 @@ float light_at(vec3 point)
                                              slice + float(s) + 0.5) / resolution).r;
     return exp(-mix(tau[0], tau[1], passed - slice));
 }
-
-// The same for a point that may lie beyond the grid: what the way to the light (of unit length) meets where it comes in.
-float light_beyond(vec3 point, vec3 light)
-{
-    float voxel = frame.grid_corner.w;
-    vec3 low = frame.grid_corner.xyz + 0.501 * voxel;
-    vec3 high = frame.grid_corner.xyz + (float(frame.slices.w) - 0.501) * voxel;
-    vec3 slope = mix(light, vec3(1e-6), lessThan(abs(light), vec3(1e-6)));
-    vec3 one = (low - point) / slope, other = (high - point) / slope;
-    vec3 begin = min(one, other), end = max(one, other);
-    float enters = max(max(begin.x, begin.y), max(begin.z, 0.0)), leaves = min(end.x, min(end.y, end.z));
-    return enters < leaves ? light_at(clamp(point + light * enters, low, high)) : 1.0;
-}

@@ -19,10 +19,8 @@ uniform vec3 stretch; // m: the half of a sphere that looks this way moves by so
 uniform int on_head;
 uniform int worked_out;
 uniform vec4 albedo; // linear; w: how far the roots tint it
-uniform float fades_at; // m from its middle, where the ground ends; 0: it is no ground
 
 out vec3 lit;
-out float seen; // share of it that hides what is behind
 
 vec3 turned(vec3 v)
 {
@@ -35,7 +33,6 @@ void main()
 {
     vec3 p = turned(position * place.w + place.xyz + (dot(position, stretch) > 0.0 ? stretch : vec3(0.0)));
     gl_Position = frame.view_projection * vec4(p, 1.0);
-    seen = fades_at > 0.0 ? 1.0 - smoothstep(0.35, 1.0, length(position.xz) / fades_at) : 1.0;
     if (worked_out == 1)
     {
         lit = color;
@@ -45,11 +42,11 @@ void main()
     vec3 l = params.look_light_direction.xyz, e = normalize(frame.camera_position.xyz - p);
     vec3 h = normalize(l + e + vec3(0.0, 1e-6, 0.0));
     // A voxel and a half off the surface: the grid holds the body itself.
-    float light = fades_at > 0.0 ? light_beyond(p, l) : light_at(p + n * 1.5 * frame.grid_corner.w);
-    vec3 wrap = fades_at > 0.0 ? vec3(0.0) : vec3(0.35, 0.18, 0.12); // red light travels furthest under the skin
+    float light = light_at(p + n * 1.5 * frame.grid_corner.w);
+    vec3 wrap = vec3(0.35, 0.18, 0.12); // red light travels furthest under the skin
     vec3 lambert = max(vec3(0.0), (dot(n, l) + wrap) / (1.0 + wrap));
     vec3 sky = mix(vec3(0.22, 0.19, 0.18), vec3(0.42, 0.44, 0.48), 0.5 + 0.5 * n.y);
-    float sheen = fades_at > 0.0 ? 0.0 : 0.12 * pow(max(0.0, dot(n, h)), 24.0) * (1.0 - roots);
+    float sheen = 0.12 * pow(max(0.0, dot(n, h)), 24.0) * (1.0 - roots);
 
     vec3 base = mix(albedo.rgb, params.look_root_color.rgb * 0.6, albedo.w * roots);
     vec3 sun = params.look_light_color.rgb * light;

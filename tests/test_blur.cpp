@@ -30,19 +30,16 @@ Hairstyle balls(std::initializer_list<Collider> colliders, std::initializer_list
     return style;
 }
 
-// How bright a row or a column of a picture is, from (x, y) on.
+// How far a row or a column of a transparent picture is covered, from (x, y) on.
 std::vector<double> line(const LinearImage& image, int x, int y, int dx, int dy, int count)
 {
     std::vector<double> values;
     for (int i = 0; i < count; ++i)
-    {
-        const float* p = &image.pixels[size_t(4 * ((y + i * dy) * image.width + x + i * dx))];
-        values.push_back(double(p[0] + p[1] + p[2]));
-    }
+        values.push_back(image.pixels[size_t(4 * ((y + i * dy) * image.width + x + i * dx) + 3)]);
     return values;
 }
 
-// Of an edge from dark to bright, pixels between a tenth and nine tenths.
+// Of an edge from bare to covered, pixels between a tenth and nine tenths.
 double edge_width(const std::vector<double>& values)
 {
     const double most = *std::ranges::max_element(values);
@@ -142,18 +139,25 @@ TEST_F(Blur, light_is_what_its_picture_shows)
 // whose edge takes 0.687 of its width from a tenth to nine tenths.
 TEST_F(Blur, what_is_out_of_focus_is_as_blurred_as_the_lens_is_wide)
 {
-    const Hairstyle style = balls({{{-0.12f, 0.0f, 0.0f}, 0.06f}, {{0.24f, 0.0f, -1.0f}, 0.12f}},
-                                  {"camera.aperture=30", "look.light_direction=[0, 0, 1]"});
+    const Hairstyle style =
+        balls({{{-0.12f, 0.0f, 0.0f}, 0.06f}, {{0.24f, 0.0f, -1.0f}, 0.12f}}, {"camera.aperture=30"});
     Simulation simulation(test_device(), style);
     const int width = 400, height = 300;
     const double pixel = 2.0 * std::tan(0.5 * camera_of(style.params).fov) / height; // at 1 m
-    const LinearImage blurred = renderer->linear_picture(frame_of(simulation, 256), width, height);
+    const auto taken = [&](int samples)
+    {
+        FrameInput frame = frame_of(simulation, samples);
+        frame.transparent = true;
+        return renderer->linear_picture(frame, width, height);
+    };
+    const LinearImage blurred = taken(256);
     const auto edges = [&](const LinearImage& image, double x)
     {
         const int middle = int(width / 2 + x / pixel), reach = 50;
         return edge_width(line(image, middle, height / 2 - reach, 0, 1, reach));
     };
-    const double away = 0.03 * (2.0 - 1.0) / 2.0 / pixel; // pixels that a point 2 m away becomes, focused at 1 m
+    // Pixels that a point 2 m away becomes with the focus at 1 m, or the other way round.
+    const double away = 0.03 * (1.0 / 1.0 - 1.0 / 2.0) / pixel;
     EXPECT_GT(away, 8.0);
     EXPECT_LT(edges(blurred, -0.12), 2.5) << "in focus";
     EXPECT_NEAR(edges(blurred, 0.12), 0.687 * away, 0.2 * 0.687 * away) << "behind it";
@@ -161,14 +165,13 @@ TEST_F(Blur, what_is_out_of_focus_is_as_blurred_as_the_lens_is_wide)
     Hairstyle back = style;
     assign(back, "camera.focus=2");
     simulation.set_style(back);
-    const LinearImage behind = renderer->linear_picture(frame_of(simulation, 256), width, height);
+    const LinearImage behind = taken(256);
     EXPECT_LT(edges(behind, 0.12), 2.5);
-    const double before = 0.03 * (2.0 - 1.0) / 2.0 / pixel * 2.0; // the nearer ball, focused at 2 m
-    EXPECT_NEAR(edges(behind, -0.12), 0.687 * before, 0.2 * 0.687 * before);
+    EXPECT_NEAR(edges(behind, -0.12), 0.687 * away, 0.2 * 0.687 * away) << "before it";
 
     assign(back, "camera.aperture=0");
     simulation.set_style(back);
-    const LinearImage sharp = renderer->linear_picture(frame_of(simulation, 16), width, height);
+    const LinearImage sharp = taken(16);
     EXPECT_LT(edges(sharp, -0.12), 2.5);
     EXPECT_LT(edges(sharp, 0.12), 2.5);
 }
@@ -234,14 +237,14 @@ Motion sideways(double speed) // m/s, from 0.2 s on
 TEST_F(Blur, what_moves_is_blurred_along_its_way_alone)
 {
     // The camera looks at where the ball is going to be.
-    const Hairstyle style =
-        balls({{{0.0f, 0.0f, 0.0f}, 0.06f, true}}, {"camera.shutter=0.5", "look.light_direction=[0, 0, 1]"});
+    const Hairstyle style = balls({{{0.0f, 0.0f, 0.0f}, 0.06f, true}}, {"camera.shutter=0.5"});
     const double speed = 1.2, at = 0.6;
     const Motion motion = sideways(speed);
     ShotOptions shot;
     shot.width = 400;
     shot.height = 300;
     shot.samples = 128;
+    shot.transparent = true;
     const double pixel = 2.0 * std::tan(0.5 * camera_of(style.params).fov) / shot.height;
     Hairstyle aimed = style;
     const double end = pose_at(motion, at).origin.x, way = end - pose_at(motion, at - 0.5 / 24.0).origin.x;

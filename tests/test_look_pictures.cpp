@@ -156,14 +156,17 @@ TEST_F(LookPicture, WhatNobodyShouldAskForIsDrawn)
 TEST_F(LookPicture, HeadsWithoutHairAndHairWithoutAHeadAreLit)
 {
     for (const char* set : {"interpolation.strands=0", "interpolation.strands=1", "head.mesh=''"})
-        for (const char* method : {"render.method=geometry", "render.method=opencl"})
+    {
+        Hairstyle style = lit_style({set});
+        Simulation other(test_device(), style);
+        other.solver().draw();
+        for (const Method method : {BY_GEOMETRY, BY_OPENCL})
         {
-            const Hairstyle style = lit_style({set, method});
-            Simulation other(test_device(), style);
-            other.solver().draw();
-            const Image image = renderer->picture(frame_input(other, camera_of(style.params)), 160, 120);
-            EXPECT_GT(brightness(image), 10.0) << set << ' ' << method;
+            FrameInput frame = frame_input(other, camera_of(style.params));
+            frame.params.render_method = method;
+            EXPECT_GT(brightness(renderer->picture(frame, 160, 120)), 10.0) << set << ' ' << method;
         }
+    }
 }
 
 // How far the places that light is looked at in are from the curves that other tools get, at most, m.
