@@ -44,8 +44,8 @@ struct Lights
 };
 
 constexpr double kRadiance = 0.15, kRoughly = 0.23; // what dual scattering may be off by, and over 6 pixels
-constexpr float kHair = 0.6f;                       // share of a pixel that makes it the hair's
-constexpr double kFar = 6.0, kLocks = 2.0;          // pixels that pictures are blurred by
+constexpr float kHair = 0.9f; // share of a pixel that makes it the hair's: skin that shows through is brighter
+constexpr double kFar = 6.0, kLocks = 2.0; // pixels that pictures are blurred by
 } // namespace
 
 static std::vector<Lights> lights_of()
