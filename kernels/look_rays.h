@@ -79,8 +79,7 @@ typedef struct SkyShares
     float4 front, behind; // straight, red, green, blue
 } SkyShares;
 
-static inline SkyShares sky_shares(global const float* sky, float x, float y, float z, float4 way, float cosine,
-                                   constant LookVolume* coarse_volume)
+static inline float16 sky_at(global const float* sky, float x, float y, float z, constant LookVolume* coarse_volume)
 {
     const float4 corner = coarse_volume->corner;
     const float inverse = 1.0f / corner.w;
@@ -93,12 +92,25 @@ static inline SkyShares sky_shares(global const float* sky, float x, float y, fl
     const int row = coarse_volume->x * 16, plane = row * coarse_volume->y;
     global const float* at = sky + iz * plane + iy * row + ix * 16;
     const float fx = gx - (float)ix, fy = gy - (float)iy, fz = gz - (float)iz;
-    const float16 low =
-        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 low = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
+                            mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
     at += plane;
-    const float16 high =
-        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
-    const float16 found = mix(low, high, fz);
+    const float16 high = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
+                             mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    return mix(low, high, fz);
+}
+
+// `out`: coarse voxels towards where most of it comes from.
+static inline SkyShares sky_shares(global const float* sky, float x, float y, float z, float4 way, float cosine,
+                                   float out, constant LookVolume* coarse_volume)
+{
+    float16 found = sky_at(sky, x, y, z, coarse_volume);
+    if (out > 0.0f)
+    {
+        const float3 most = (float3)(found.s4, found.s8, found.sc);
+        const float3 moved = most * (out * coarse_volume->corner.w / fmax(length(most), 0.05f));
+        found = sky_at(sky, x + moved.x, y + moved.y, z + moved.z, coarse_volume);
+    }
     const float4 whole_sky = found.lo.lo;
     const float4 lean = cosine * (found.lo.hi * way.x + found.hi.lo * way.y + found.hi.hi * way.z);
     SkyShares shares;

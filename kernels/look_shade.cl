@@ -171,7 +171,7 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             const LookRay ray = rays[k];
             const float4 l = ray.direction, e = ray.irradiance;
             const FibreAngles a = fibre_angles(tx * l.x + ty * l.y + tz * l.z, along_eye, ex * l.x + ey * l.y + ez * l.z);
-            const real tau = depth_to(depth + k * all, ray, in_voxels(p, l, 0.5f, volume), volume);
+            const real tau = depth_to(depth + k * all, ray, in_voxels(p, l, OUT_TO_SUN, volume), volume);
             const real straight = open * exp(-tau);
 #if LEVEL == 1
             const Rgb f = karis(fibre, a, absorb, look_frame->roughness);
@@ -212,7 +212,7 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         for (int lane = 0; lane < WIDTH; ++lane)
         {
             const SkyShares left = sky_shares(sky, px[lane], py[lane], pz[lane],
-                                              (float4)(nx[lane], ny[lane], nz[lane], 0.0f), 0.5f, coarse_volume);
+                                              (float4)(nx[lane], ny[lane], nz[lane], 0.0f), 0.5f, OUT_TO_SKY, coarse_volume);
             before[0][lane] = left.front.x;
             before[1][lane] = left.front.y;
             before[2][lane] = left.front.z;

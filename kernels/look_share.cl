@@ -30,7 +30,7 @@ kernel void look_share(global const float4* places, constant LookFrame* look_fra
         {
             const LookRay ray = rays[k];
             const float4 e = ray.irradiance * (float4)(0.2126f, 0.7152f, 0.0722f, 0.0f);
-            const real tau = depth_to(depth + k * all, ray, in_voxels(p, ray.direction, 0.5f, volume), volume);
+            const real tau = depth_to(depth + k * all, ray, in_voxels(p, ray.direction, OUT_TO_SUN, volume), volume);
             const real straight = exp(-tau);
             const real handed = e.x * (exp((on.x - 1.0f) * tau) - straight) +
                                 e.y * (exp((on.y - 1.0f) * tau) - straight) +

@@ -88,7 +88,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     {
         const SkyShares left =
             sky_shares(sky, a_x[lane], a_y[lane], a_z[lane], (float4)(n_x[lane], n_y[lane], n_z[lane], 0.0f),
-                       2.0f / 3.0f, coarse_volume);
+                       2.0f / 3.0f, 0.0f, coarse_volume);
         const float4 bright = look_frame->sky;
         lit[first + lane] = (float4)(
             albedo[lane].x * (out[0][lane] + bright.x * left.front.y) + out[3][lane],

@@ -1,6 +1,7 @@
 // The volume that light is followed through, plane after plane of all voxels: fibre per cubic metre times the way it
 // runs (x, y, z), and fibre (length times width, 1/m). Bodies count as fibre without a way, more so over
-// the first two voxels under their surface: harder edges would show as teeth. Work-item: WIDTH voxels along x.
+// two voxels from 0.7 under their surface on: harder edges would show as teeth, nearer ones would darken the roots.
+// Work-item: WIDTH voxels along x.
 #include "look.h"
 #include "distance_grid.h"
 
@@ -49,7 +50,7 @@ kernel void look_volume(global const int4* fibre_sums, global float* fibre, cons
 #ifdef BODY_GRID
     inside = fmax(inside, -body_plane(body_distance, x, (real)(y), (real)(z), info).distance / corner.w);
 #endif
-    const real body = fmin(fmax(0.5f * inside, (real)(0.0f)), (real)(1.0f)) *
+    const real body = fmin(fmax(0.5f * inside - 0.35f, (real)(0.0f)), (real)(1.0f)) *
                       (BODY_DEPTH / (0.785398163f * corner.w)); // look_extinction.cl
     for (int axis = 0; axis < 3; ++axis)
         LANES_STORE(LANES_LOAD(sums[axis]), fibre + axis * all + row + first);

@@ -75,7 +75,7 @@ std::vector<double> bodies_in_voxels(const std::vector<Capsule>& colliders, cons
                     under = std::max(under, c.center.w - glm::distance(p, nearest_on_axis(c, p)));
                 if (!body.distance.empty())
                     under = std::max(under, -plane_at(body, p, info).distance);
-                bodies.push_back(std::min(1.0, under / (2.0 * side)) * kDeep / (0.25 * kPi * side));
+                bodies.push_back(std::clamp(under / (2.0 * side) - 0.35, 0.0, 1.0) * kDeep / (0.25 * kPi * side));
             }
     return bodies;
 }
@@ -185,7 +185,7 @@ double march(const float* taken, const LookVolume& volume, Vec at, Vec direction
     return sum * 0.5 * volume.corner.w;
 }
 
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine)
+static std::array<double, 16> moments_at(const std::vector<float>& sky, const LookVolume& coarse, Vec p)
 {
     const Vec at = glm::clamp(in_voxels(p, coarse), Vec(0.0), Vec(coarse.x, coarse.y, coarse.z) - 1.001);
     std::array<double, 16> moments = {};
@@ -195,6 +195,14 @@ SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p,
               for (size_t i = 0; i < 16; ++i)
                   moments[i] += weight * double(sky[16 * voxel + i]);
           });
+    return moments;
+}
+
+SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine, double out)
+{
+    std::array<double, 16> moments = moments_at(sky, coarse, p);
+    const Vec most(moments[4], moments[8], moments[12]);
+    moments = moments_at(sky, coarse, p + most * (out * double(coarse.corner.w) / std::max(glm::length(most), 0.05)));
     SkyLeft left;
     for (size_t c = 0; c < 4; ++c)
     {
@@ -250,7 +258,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         const double disc = ray.direction.w;
         const in_doubles::FibreAngles a = in_doubles::fibre_angles(glm::dot(t, l), glm::dot(t, eye), glm::dot(eye, l));
         const double tau = depth_at(lit.depth.data() + size_t(i) * voxels_of(lit.volume), lit.volume, ray,
-                                    in_voxels(p, lit.volume) + 0.5 * l);
+                                    in_voxels(p, lit.volume) + double(OUT_TO_SUN) * l);
         if (level == 1)
         {
             sum += e * std::exp(-tau) * vec(in_doubles::karis(fibre, a, absorbs, f.roughness));
@@ -292,7 +300,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
     }
     const double along_eye = glm::dot(t, eye);
     const Vec across = (eye - t * along_eye) / std::sqrt(std::max(1.0 - along_eye * along_eye, 1e-4));
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, p, across, 0.5);
+    const SkyLeft left = sky_left(lit.sky, lit.coarse, p, across, 0.5, double(OUT_TO_SKY));
     for (int c = 0; c < 3; ++c)
     {
         const Shares s = shares(c, along_eye);
@@ -331,7 +339,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
             shine[c] += e * surface.normal.w * d * v * f * nl;
         }
     }
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, above, n, 2.0 / 3.0);
+    const SkyLeft left = sky_left(lit.sky, lit.coarse, above, n, 2.0 / 3.0, 0.0);
     for (int c = 0; c < 3; ++c)
         diffuse[c] += xyz(lit.frame.sky)[c] * left.front[size_t(c) + 1];
     return xyz(surface.albedo) * diffuse + shine;

@@ -46,7 +46,7 @@ struct SkyLeft
 {
     std::array<double, 4> front, behind;
 };
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine);
+SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine, double out);
 
 // All that the colours of a hair's places hang on besides the strand.
 struct Lit

@@ -463,7 +463,7 @@ TEST_F(LookPasses, TheShareOfLightThatIsHandedOnIsTheTwins)
         {
             const Vec l = xyz(lit.rays[i].direction);
             const double tau = oracle::depth_at(&lit.depth[i * all], volume, lit.rays[i],
-                                                oracle::in_voxels(xyz(place), volume) + 0.5 * l);
+                                                oracle::in_voxels(xyz(place), volume) + double(OUT_TO_SUN) * l);
             const Vec e = xyz(lit.rays[i].irradiance) * Vec(0.2126, 0.7152, 0.0722);
             for (int c = 0; c < 3; ++c)
             {
