@@ -92,11 +92,11 @@ static inline float16 sky_at(global const float* sky, float x, float y, float z,
     const int row = coarse_volume->x * 16, plane = row * coarse_volume->y;
     global const float* at = sky + iz * plane + iy * row + ix * 16;
     const float fx = gx - (float)ix, fy = gy - (float)iy, fz = gz - (float)iz;
-    const float16 low = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
-                            mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 low =
+        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
     at += plane;
-    const float16 high = mix(mix(vload16(0, at), vload16(0, at + 16), fx),
-                             mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
+    const float16 high =
+        mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
     return mix(low, high, fz);
 }
 
