@@ -139,11 +139,11 @@ void Shading::sweep(const Lighting& lighting)
     for (int i = 0; i < SKY_RAYS; ++i)
         sky.push_back(ray_towards(coarse_, sky_direction(i)));
     suns_ = int(suns.size());
-    const auto follow = [&](const LookVolume& volume, const std::vector<LookRay>& rays)
+    const auto follow = [&](const LookVolume& volume, const std::vector<LookRay>& rays, const std::string& what)
     {
         const size_t all = voxels_of(volume), width = size_t(passes_.device.width);
         const size_t lanes = all / width, side = size_t(std::max({volume.x, volume.y, volume.z}));
-        passes_.launch("look_extinction", "", cl::NDRange(lanes, rays.size()),
+        passes_.launch("look_extinction", what, cl::NDRange(lanes, rays.size()),
                        cl::NDRange(lanes % 64 == 0 ? 64 : 1, 1));
         passes_.launch("look_sweep", "", cl::NDRange((side + width - 1) / width, side, rays.size()),
                        cl::NDRange(passes_.device.is_gpu ? 8 : 1, 1, 1));
@@ -154,25 +154,43 @@ void Shading::sweep(const Lighting& lighting)
     passes_.room_for("extinction", voxels_of(volume_) * suns.size() * sizeof(float));
     passes_.room_for("depth", voxels_of(volume_) * suns.size() * sizeof(float));
     if (suns_ > 0)
-        follow(volume_, suns);
+        follow(volume_, suns, "");
 
     const size_t coarse = voxels_of(coarse_);
-    passes_.fill("sky_rays", sky);
-    passes_.room_for("coarse_fibre", coarse * 4 * sizeof(float));
-    passes_.room_for("coarse_extinction", coarse * sky.size() * sizeof(float));
-    passes_.room_for("coarse_depth", coarse * sky.size() * sizeof(float));
+    passes_.room_for("coarse_fibre", coarse * 5 * sizeof(float));
     passes_.room_for("sky", coarse * 16 * sizeof(float));
     passes_.launch("look_coarse", "", coarse);
-    const auto other = [&] // the sky's buffers under the names of the suns', and back
+    // The coarse volume under the name of the fine one, with rays and what is found along them, and back.
+    const auto follow_coarsely =
+        [&](const std::string& whose, const std::vector<LookRay>& rays, const std::string& what)
     {
-        for (const auto& [name, coarser] :
-             {std::pair("volume", "coarse_volume"), std::pair("rays", "sky_rays"), std::pair("fibre", "coarse_fibre"),
-              std::pair("extinction", "coarse_extinction"), std::pair("depth", "coarse_depth")})
-            std::swap(passes_.buffers[name], passes_.buffers[coarser]);
+        const auto other = [&]
+        {
+            std::swap(passes_.buffers["volume"], passes_.buffers["coarse_volume"]);
+            std::swap(passes_.buffers["fibre"], passes_.buffers["coarse_fibre"]);
+            for (const char* name : {"rays", "extinction", "depth"})
+                std::swap(passes_.buffers[name], passes_.buffers[whose + "_" + name]);
+        };
+        passes_.fill(whose + "_rays", rays);
+        passes_.room_for(whose + "_extinction", coarse * rays.size() * sizeof(float));
+        passes_.room_for(whose + "_depth", coarse * rays.size() * sizeof(float));
+        other();
+        try
+        {
+            follow(coarse_, rays, what);
+        }
+        catch (...)
+        {
+            other();
+            throw;
+        }
+        other();
     };
-    other();
-    follow(coarse_, sky);
-    other();
+    follow_coarsely("sky", sky, "");
+    std::vector<LookRay> bodies;
+    for (const LookRay& sun : suns)
+        bodies.push_back(ray_towards(coarse_, {sun.direction.x, sun.direction.y, sun.direction.z}));
+    follow_coarsely("body", bodies, "-D BODIES");
     const size_t width = size_t(passes_.device.width);
     passes_.launch("look_sky", options_, cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),
                    cl::NDRange(1, 1, 1));
@@ -246,7 +264,7 @@ try
 
     const size_t all = voxels_of(volume_), width = size_t(passes_.device.width);
     const cl::Buffer& sums = passes_.room_for("fibre_sums", all * size_t(volume_.copies) * sizeof(cl_int4));
-    passes_.room_for("fibre", all * 4 * sizeof(float));
+    passes_.room_for("fibre", all * 5 * sizeof(float));
     if (passes_.device.is_gpu)
         passes_.device.queue.enqueueFillBuffer(sums, cl_int(0), 0, all * sizeof(cl_int4));
     passes_.launch("look_density", passes_.device.is_gpu ? "-D ATOMIC" : "",

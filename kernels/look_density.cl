@@ -3,17 +3,23 @@
 // `copies` workers, with its share of the strands and sums of its own; with ATOMIC a strand, and one sum for all.
 #include "look.h"
 
-static inline void add_fibre(global int4* sums, int voxel, float4 value)
+// To a voxel and to the next one along x, which lies beside it.
+static inline void add_fibre(global int4* sums, int voxel, float4 value, float further)
 {
-#ifdef ATOMIC
-    const int4 whole_value = convert_int4_rte(value);
+    const int8 both = convert_int8_rte((float8)(value * (1.0f - further), value * further));
     global int* sum = (global int*)(sums + voxel);
-    atomic_add(sum, whole_value.x);
-    atomic_add(sum + 1, whole_value.y);
-    atomic_add(sum + 2, whole_value.z);
-    atomic_add(sum + 3, whole_value.w);
+#ifdef ATOMIC
+    const int4 here = both.lo, next = both.hi;
+    atomic_add(sum, here.x);
+    atomic_add(sum + 1, here.y);
+    atomic_add(sum + 2, here.z);
+    atomic_add(sum + 3, here.w);
+    atomic_add(sum + 4, next.x);
+    atomic_add(sum + 5, next.y);
+    atomic_add(sum + 6, next.z);
+    atomic_add(sum + 7, next.w);
 #else
-    sums[voxel] += convert_int4_rte(value);
+    vstore8(vload8(0, sum) + both, 0, sum);
 #endif
 }
 
@@ -35,17 +41,11 @@ static inline void add_piece(global int4* sums, float4 a, float4 b, constant Loo
             continue;
         const int voxel = (int)below.x + row * (int)below.y + plane * (int)below.z;
         const float4 value = (float4)(way / size, 1.0f) * (share * mix(a.w, b.w, part));
-        const float4 near_z = value * (1.0f - on.z), far_z = value * on.z;
-        const float4 near_y = near_z * (1.0f - on.y), far_y = near_z * on.y;
-        const float4 near_yz = far_z * (1.0f - on.y), far_yz = far_z * on.y;
-        add_fibre(sums, voxel, near_y * (1.0f - on.x));
-        add_fibre(sums, voxel + 1, near_y * on.x);
-        add_fibre(sums, voxel + row, far_y * (1.0f - on.x));
-        add_fibre(sums, voxel + row + 1, far_y * on.x);
-        add_fibre(sums, voxel + plane, near_yz * (1.0f - on.x));
-        add_fibre(sums, voxel + plane + 1, near_yz * on.x);
-        add_fibre(sums, voxel + plane + row, far_yz * (1.0f - on.x));
-        add_fibre(sums, voxel + plane + row + 1, far_yz * on.x);
+        const float4 low = value * (1.0f - on.z), high = value * on.z;
+        add_fibre(sums, voxel, low * (1.0f - on.y), on.x);
+        add_fibre(sums, voxel + row, low * on.y, on.x);
+        add_fibre(sums, voxel + plane, high * (1.0f - on.y), on.x);
+        add_fibre(sums, voxel + plane + row, high * on.y, on.x);
     }
 }
 

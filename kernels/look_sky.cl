@@ -4,7 +4,7 @@
 // mean would be far too bright: tau differs from direction to direction. Work-item: WIDTH coarse voxels along x.
 #include "look_rays.h"
 
-kernel void look_sky(global const float* coarse_depth, global float* sky, constant LookVolume* coarse_volume,
+kernel void look_sky(global const float* sky_depth, global float* sky, constant LookVolume* coarse_volume,
                      constant LookRay* sky_rays, global const float4* forward)
 {
     const int first = (int)get_global_id(0) * WIDTH, y = (int)get_global_id(1), z = (int)get_global_id(2);
@@ -25,7 +25,7 @@ kernel void look_sky(global const float* coarse_depth, global float* sky, consta
         const real main = ray.axis == 0 ? x : ray.axis == 1 ? (real)(y) : (real)(z);
         const whole slice = clamp(TO_WHOLE((main - (float)ray.from) * (float)ray.sign), (whole)(0),
                                   (whole)(s.count - 1));
-        const real tau = depth_in_slice(coarse_depth + i * all, ray, s, u, v, slice);
+        const real tau = depth_in_slice(sky_depth + i * all, ray, s, u, v, slice);
         const real left[4] = {exp(-tau), exp((handed_on.x - 1.0f) * tau), exp((handed_on.y - 1.0f) * tau),
                               exp((handed_on.z - 1.0f) * tau)};
         for (int c = 0; c < 4; ++c)

@@ -9,7 +9,8 @@
 
 kernel void look_surface(global const LookSurface* surfaces, global float4* lit, constant LookFrame* look_frame,
                          constant LookVolume* volume, constant LookVolume* coarse_volume, constant LookRay* rays,
-                         global const float* depth, global const float* sky, global const float4* forward)
+                         global const float* depth, constant LookRay* body_rays, global const float* body_depth,
+                         global const float* sky, global const float4* forward)
 {
     const int points_lit = look_frame->surfaces;
     const int first = (int)get_global_id(0) * WIDTH;
@@ -45,7 +46,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     // A voxel and a half off the surface: the volume holds the body itself.
     const float off = 1.5f * volume->corner.w;
     const Points above = points(p.x + off * nx, p.y + off * ny, p.z + off * nz);
-    const size_t all = (size_t)volume_voxels(volume);
+    const size_t all = (size_t)volume_voxels(volume), all_coarse = (size_t)volume_voxels(coarse_volume);
     real diffuse[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, shine[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     for (int k = 0; k < look_frame->suns; ++k)
     {
@@ -54,6 +55,9 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
         const float e[3] = {ray.irradiance.x, ray.irradiance.y, ray.irradiance.z};
         const float on[3] = {handed_on.x, handed_on.y, handed_on.z}, reach[3] = {0.35f, 0.18f, 0.12f};
         const real tau = depth_to(depth + k * all, ray, in_voxels(above, l, 0.0f, volume), volume);
+        // What of it bodies take, they keep: only hair hands on. Their depth is known from coarser voxels.
+        const real kept = fmin(tau, depth_to(body_depth + k * all_coarse, body_rays[k],
+                                             in_voxels(above, l, 0.0f, coarse_volume), coarse_volume));
         const real cosine = nx * l.x + ny * l.y + nz * l.z;
         const real hx = ex + l.x, hy = ey + l.y, hz = ez + l.z;
         const real per_h = INVERSE_SQRT(fmax(hx * hx + hy * hy + hz * hz, (real)(1e-12f)));
@@ -68,7 +72,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
                          fmax(masked, (real)(1e-4f));
         for (int c = 0; c < 3; ++c)
         {
-            const real reached = e[c] * exp((on[c] - 1.0f) * tau);
+            const real reached = e[c] * exp((on[c] - 1.0f) * (tau - kept) - kept);
             const real round = fmax(cosine + reach[c], (real)(0.0f)) * (1.0f / (1.0f + reach[c]));
             diffuse[c] += reached * mix(lit_by, round, far) * 0.318309886f;
             shine[c] += reached * ggx;

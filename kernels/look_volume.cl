@@ -1,7 +1,7 @@
 // The volume that light is followed through, plane after plane of all voxels: fibre per cubic metre times the way it
-// runs (x, y, z), and fibre (length times width, 1/m). Bodies count as fibre without a way, more so over
-// two voxels from 0.7 under their surface on: harder edges would show as teeth, nearer ones would darken the roots.
-// Work-item: WIDTH voxels along x.
+// runs (x, y, z), fibre (length times width, 1/m), and what of that are bodies. They count as fibre without a way, more
+// so over two voxels from 0.7 under their surface on: harder edges would show as teeth, nearer ones would darken the
+// roots. Work-item: WIDTH voxels along x.
 #include "look.h"
 #include "distance_grid.h"
 
@@ -55,4 +55,5 @@ kernel void look_volume(global const int4* fibre_sums, global float* fibre, cons
     for (int axis = 0; axis < 3; ++axis)
         LANES_STORE(LANES_LOAD(sums[axis]), fibre + axis * all + row + first);
     LANES_STORE(LANES_LOAD(sums[3]) + body, fibre + 3 * all + row + first);
+    LANES_STORE(body, fibre + 4 * all + row + first);
 }

@@ -326,6 +326,8 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
         const Vec l = xyz(ray.direction), h = glm::normalize(l + eye);
         const double tau = depth_at(lit.depth.data() + size_t(i) * voxels_of(lit.volume), lit.volume, ray,
                                     in_voxels(above, lit.volume));
+        const double kept = std::min(tau, depth_at(lit.body_depth.data() + size_t(i) * voxels_of(lit.coarse),
+                                                   lit.coarse, lit.body_rays[size_t(i)], in_voxels(above, lit.coarse)));
         const double nl = std::max(0.0, glm::dot(n, l)), nh = glm::dot(n, h);
         const double d = a2 / (kPi * std::pow(nh * nh * (a2 - 1) + 1, 2));
         const double v =
@@ -333,7 +335,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
         const double f = 0.028 + 0.972 * std::pow(1.0 - std::clamp(glm::dot(eye, h), 0.0, 1.0), 5);
         for (int c = 0; c < 3; ++c)
         {
-            const double e = xyz(ray.irradiance)[c] * std::exp((lit.forward[c] - 1) * tau);
+            const double e = xyz(ray.irradiance)[c] * std::exp((lit.forward[c] - 1) * (tau - kept) - kept);
             const double round = std::max(0.0, glm::dot(n, l) + reach[c]) / (1 + reach[c]);
             diffuse[c] += e * glm::mix(nl, round, double(surface.albedo.w)) / kPi;
             shine[c] += e * surface.normal.w * d * v * f * nl;

@@ -54,8 +54,8 @@ struct Lit
     HairParams params; // as the device reads them
     LookFrame frame;
     LookVolume volume, coarse;
-    std::vector<LookRay> rays;
-    std::vector<float> depth, sky, table;
+    std::vector<LookRay> rays, body_rays; // through the volume, and through the coarse one
+    std::vector<float> depth, body_depth, sky, table;
     Vec forward;
 };
 

@@ -148,6 +148,8 @@ class Hair
         lit.coarse = values<LookVolume>("coarse_volume", 1)[0];
         lit.rays = values<LookRay>("rays", suns);
         lit.depth = values<float>("depth", suns * oracle::voxels_of(lit.volume));
+        lit.body_rays = values<LookRay>("body_rays", suns);
+        lit.body_depth = values<float>("body_depth", suns * oracle::voxels_of(lit.coarse));
         lit.sky = values<float>("sky", 16 * oracle::voxels_of(lit.coarse));
         lit.table = values<float>("shares", SHARE_ROWS * SHARE_TERMS);
         lit.forward = xyz(values<float4>("forward", 1)[0]);
@@ -278,7 +280,7 @@ TEST_F(LookPasses, DensityIsTheTwinsAndLosesNothing)
 
 TEST_F(LookPasses, TheVolumeHoldsTheHairAndTheBodiesInIt)
 {
-    const std::vector<float> fibre = hair->values<float>("fibre", 4 * all);
+    const std::vector<float> fibre = hair->values<float>("fibre", 5 * all);
     const std::vector<oracle::Fibres> hairs = oracle::fibre_in_voxels(places, volume);
     const oracle::Body body = oracle::body_of(*hair->solver->body().grid);
     const std::vector<double> bodies =
@@ -288,6 +290,7 @@ TEST_F(LookPasses, TheVolumeHoldsTheHairAndTheBodiesInIt)
     int deep = 0, edge = 0;
     for (size_t i = 0; i < all; ++i)
     {
+        worst = std::max(worst, std::abs(double(fibre[4 * all + i]) - bodies[i]));
         const double expected = hairs[i][3] * per_volume + bodies[i];
         most = std::max(most, expected);
         worst = std::max(worst, std::abs(double(fibre[3 * all + i]) - expected));
@@ -339,6 +342,37 @@ TEST_F(LookPasses, SweepsAreTheTwins)
     }
 }
 
+// Along the suns' rays, through coarse voxels, bodies alone.
+TEST_F(LookPasses, BodiesShadeApartFromHair)
+{
+    const oracle::Lit lit = hair->lit();
+    const size_t coarse = oracle::voxels_of(lit.coarse);
+    const std::vector<float> bodies = hair->values<float>("coarse_fibre", 5 * coarse);
+    const std::vector<float> taken = hair->values<float>("body_extinction", hair->suns * coarse);
+    for (size_t ray = 0; ray < hair->suns; ++ray)
+    {
+        EXPECT_LT(glm::distance(xyz(lit.body_rays[ray].direction), xyz(lit.rays[ray].direction)), 1e-6);
+        double worst = 0.0, most = 0.0;
+        for (size_t i = 0; i < coarse; ++i)
+        {
+            const oracle::Fibres body = {0.0, 0.0, 0.0, double(bodies[4 * coarse + i])};
+            const double expected = oracle::extinction(body, xyz(lit.rays[ray].direction), 1.0);
+            worst = std::max(worst, std::abs(double(taken[ray * coarse + i]) - expected));
+            most = std::max(most, expected);
+        }
+        EXPECT_LT(worst, 1e-5 * most);
+        EXPECT_GT(most, 100.0) << "1/m, within the ball";
+        const std::vector<double> swept = oracle::sweep(&taken[ray * coarse], lit.coarse, lit.body_rays[ray]);
+        worst = most = 0.0;
+        for (size_t i = 0; i < coarse; ++i)
+        {
+            worst = std::max(worst, std::abs(double(lit.body_depth[ray * coarse + i]) - swept[i]));
+            most = std::max(most, swept[i]);
+        }
+        EXPECT_LT(worst, 1e-5 * most);
+    }
+}
+
 // Lights that lean are swept in steps of up to 1.7 voxels, and read between rays: shadows of bodies are softer by a
 // voxel.
 TEST_F(LookPasses, WhatASweepLeavesIsWhatAMarchFinds)
@@ -371,11 +405,11 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
     const oracle::Lit lit = hair->lit();
     const size_t coarse = oracle::voxels_of(lit.coarse);
     const std::vector<LookRay> rays = hair->values<LookRay>("sky_rays", SKY_RAYS);
-    const std::vector<float> depth = hair->values<float>("coarse_depth", SKY_RAYS * coarse);
-    const std::vector<float> taken = hair->values<float>("coarse_extinction", SKY_RAYS * coarse);
-    const std::vector<float> fine = hair->values<float>("fibre", 4 * all);
-    const std::vector<float> mean = hair->values<float>("coarse_fibre", 4 * coarse);
-    for (size_t plane = 0; plane < 4; ++plane) // nothing is lost between fine voxels and coarse ones
+    const std::vector<float> depth = hair->values<float>("sky_depth", SKY_RAYS * coarse);
+    const std::vector<float> taken = hair->values<float>("sky_extinction", SKY_RAYS * coarse);
+    const std::vector<float> fine = hair->values<float>("fibre", 5 * all);
+    const std::vector<float> mean = hair->values<float>("coarse_fibre", 5 * coarse);
+    for (size_t plane = 0; plane < 5; ++plane) // nothing is lost between fine voxels and coarse ones
     {
         double sum = 0.0, coarse_sum = 0.0, most = 0.0;
         for (size_t i = 0; i < all; ++i)
