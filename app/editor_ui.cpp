@@ -1,5 +1,6 @@
 // What the editor draws over its picture: tools, parameters, dialogs, figures.
 #include "app/editor.h"
+#include "app/look_level.h"
 #include "sim/error.h"
 
 #include <imgui.h>
@@ -306,6 +307,9 @@ void Editor::draw_status()
         ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
     ImGui::TextDisabled("%s", trial_.said(style_.params).c_str());
+    if (const LookCost& look = renderer_->look(); look.level > LOOK_KAJIYA_KAY)
+        ImGui::TextDisabled("light by %s: %.1f ms, and %.1f ms as it is seen; leaves out %.0f %% of it",
+                            level_name(look.level), look.light_ms, look.shade_ms, 100.0 * look.left_out);
     if (const std::string given = leeway_text(leeway_); !given.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.4f, 1.0f), "%s", given.c_str());
     else if (refined_ > 1)

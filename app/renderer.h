@@ -58,6 +58,14 @@ struct FrameInput
 // Takes the views; waits for the device.
 FrameInput frame_input(const Simulation& simulation, const Camera& camera);
 
+// How the light of the last picture was worked out.
+struct LookCost
+{
+    int level = 0;                         // of look.level
+    double light_ms = 0.0, shade_ms = 0.0; // when either was last needed
+    double left_out = 0.0;                 // share of the light in the hair that this level is expected to leave out
+};
+
 // What can draw the strands, as render.method lists it.
 enum Method
 {
@@ -84,8 +92,7 @@ class Renderer
     void reload_shaders();
     // What the driver calls itself.
     std::string name() const;
-    int level() const { return level_; }                   // of look.level, that it has drawn with last; 0: none
-    Shading* shading() { return shading_.get(); }          // none before it has drawn so
+    const LookCost& look() const { return look_; }
     Rasteriser* rasteriser() { return rasteriser_.get(); } // none before it has drawn
     // What draws the strands where that is left to a rule: the geometry shader where there is a graphics card for it.
     static Method method_of(const HairParams& params);
@@ -140,7 +147,7 @@ class Renderer
     std::unique_ptr<Shading> shading_;       // none until a level asks for it
     std::vector<char> lit_by_, seen_from_;   // what it has worked out last
     std::vector<char> chosen_by_;
-    int level_ = 0;                                      // of look.level, that is drawn with
+    LookCost look_;
     bool shaded_ = false;                                // are colours worked out for this picture?
     int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
     std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded

@@ -84,7 +84,7 @@ void Renderer::light(const FrameInput& frame)
     shaded_ = frame.params.look_level != LOOK_KAJIYA_KAY && frame.colors.value.empty();
     if (!shaded_)
     {
-        level_ = LOOK_KAJIYA_KAY;
+        look_ = {LOOK_KAJIYA_KAY};
         chosen_by_.clear();
         return;
     }
@@ -114,6 +114,7 @@ void Renderer::light(const FrameInput& frame)
     scene.params = params;
     scene.lighting = frame.lighting;
     shading_->light(scene);
+    look_.light_ms = sum_of(shading_->take_times());
     lit_by_ = key;
     choose_level(frame, of_light);
 }
@@ -129,8 +130,9 @@ void Renderer::choose_level(const FrameInput& frame, const HairParams& of_light)
     append(key, frame.lighting.sky);
     if (key == chosen_by_)
         return;
-    level_ = chosen_level(frame.params,
-                          frame.params.look_level == LOOK_AUTO ? level_errors(*shading_) : std::vector<LevelError>{});
+    const std::vector<LevelError> errors = level_errors(*shading_);
+    look_.level = chosen_level(frame.params, errors);
+    look_.left_out = std::ranges::find(errors, look_.level, &LevelError::level)->left_out;
     chosen_by_ = key;
 }
 
@@ -147,7 +149,7 @@ void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
     const bool strands = frame.params.render_show != 1;
     if (strands)
     {
-        const ShadedStrands& shaded = shading_->shade(eye, level_, frame.kept);
+        const ShadedStrands& shaded = shading_->shade(eye, look_.level, frame.kept);
         shaded_pieces_ = shaded.pieces;
         if (method_of(frame.params) == BY_OPENCL)
             rastered_->shaded = &shaded;
@@ -157,6 +159,7 @@ void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
     const std::vector<float4> colors = shading_->lit(solid_points(frame), eye);
     glBindBuffer(GL_ARRAY_BUFFER, solid_colors_);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(colors.size() * sizeof(float4)), colors.data(), GL_STREAM_DRAW);
+    look_.shade_ms = sum_of(shading_->take_times());
     seen_from_ = from;
 }
 
