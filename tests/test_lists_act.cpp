@@ -57,6 +57,8 @@ TEST(Lists, each_changes_the_hair)
             changed.host.ties = {Tie{}};
         else if (info.path() == "collider")
             changed.host.colliders = {{glm::vec3(0.12f, -0.1f, 0.0f), 0.06f, true, {}}};
+        else if (info.path() == "light") // the share of it that reaches each node hangs on where it stands
+            changed.host.lights = {Light{"side", glm::vec3(-1.0f, 0.2f, 0.0f)}};
         else if (info.path() == "groom.rest")
         {
             Hairstyle blown = style;
@@ -88,7 +90,10 @@ TEST(Lists, each_parameter_that_may_vary_acts_in_a_region)
         get_numbers(style.params, info, now);
         if (info.path() == "bending.diameter") // of the fibre that has a modulus
             changed.params.bending_modulus = 4.0f;
-        const std::vector<char> before = info.path() == "bending.diameter" ? played(changed) : plain;
+        const bool pigment = info.path() == "look.eumelanin" || info.path() == "look.pheomelanin";
+        if (pigment)
+            changed.params.look_pigment = 1; // melanin
+        const std::vector<char> before = pigment || info.path() == "bending.diameter" ? played(changed) : plain;
         glm::vec4 value(0.0f);
         for (int i = 0; i < info.components(); ++i)
             value[i] = now[i] > 0.5f * (info.min + info.max) ? now[i] * 0.5f : now[i] + 0.05f * (info.max - info.min);
