@@ -1,5 +1,5 @@
 // Light in the hair: the passes of kernels/look.h against their double-precision twins, and what must hold of them.
-#include "app/shading.h"
+#include "app/look_level.h"
 #include "sim/wave.h"
 #include "tests/on_device.h"
 #include "tests/oracle_look.h"
@@ -811,6 +811,21 @@ TEST(Look, NoHairNoSunAndNoLightAreNoError)
             hair.light(light_from({{0.0f, 1.0f, 0.0f}}));
             EXPECT_EQ(hair.colors(LOOK_KARIS).size(), hair.places());
         }
+}
+
+TEST(Look, AutoTakesTheCheapestLevelWithinTheTolerance)
+{
+    const std::vector<LevelError> errors = {{LOOK_KARIS, 0.2}, {LOOK_FAR_FIELD, 0.1}, {LOOK_DUAL_SCATTERING, 0.0}};
+    HairParams params;
+    params.look_level = LOOK_AUTO;
+    for (const auto& [percent, level] : {std::pair(30.0f, LOOK_KARIS), std::pair(15.0f, LOOK_FAR_FIELD),
+                                         std::pair(5.0f, LOOK_DUAL_SCATTERING), std::pair(0.0f, LOOK_DUAL_SCATTERING)})
+    {
+        params.look_tolerance = percent;
+        EXPECT_EQ(chosen_level(params, errors), level) << percent;
+    }
+    params.look_level = LOOK_KARIS;
+    EXPECT_EQ(chosen_level(params, errors), LOOK_KARIS) << "it is said";
 }
 
 } // namespace
