@@ -125,7 +125,7 @@ class Renderer
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame);
-    void choose_level(const FrameInput& frame, const HairParams& of_light);
+    void choose_level(const HairParams& params, const std::vector<char>& of_style);
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);

@@ -102,10 +102,11 @@ void Renderer::light(const FrameInput& frame)
     std::vector<char> key;
     append(key, of_light);
     append(key, &solver);
-    append(key, solver.drawings());
     for (const Sun& sun : frame.lighting.suns)
         append(key, sun);
     append(key, frame.lighting.sky);
+    const std::vector<char> of_style = key;
+    append(key, solver.drawings());
     seen_from_.clear();
     if (key == lit_by_)
         return;
@@ -116,24 +117,18 @@ void Renderer::light(const FrameInput& frame)
     shading_->light(scene);
     look_.light_ms = sum_of(shading_->take_times());
     lit_by_ = key;
-    choose_level(frame, of_light);
+    choose_level(frame.params, of_style);
 }
 
 // Anew only where the style or its lights change: hair that moves would go to and fro between two levels.
-void Renderer::choose_level(const FrameInput& frame, const HairParams& of_light)
+void Renderer::choose_level(const HairParams& params, const std::vector<char>& of_style)
 {
-    std::vector<char> key;
-    append(key, of_light);
-    append(key, &frame.simulation->solver());
-    for (const Sun& sun : frame.lighting.suns)
-        append(key, sun);
-    append(key, frame.lighting.sky);
-    if (key == chosen_by_)
+    if (of_style == chosen_by_)
         return;
     const std::vector<LevelError> errors = level_errors(*shading_);
-    look_.level = chosen_level(frame.params, errors);
+    look_.level = chosen_level(params, errors);
     look_.left_out = std::ranges::find(errors, look_.level, &LevelError::level)->left_out;
-    chosen_by_ = key;
+    chosen_by_ = of_style;
 }
 
 // Colours as they are seen from the eye, for whatever draws them.

@@ -2,6 +2,7 @@
 
 #include "app/fibre_shares.h"
 #include "sim/error.h"
+#include "sim/hair_color.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -219,10 +220,10 @@ static float4 handed_on(const HairParams& params, const Groom& groom, const std:
     return F4(forward(color.x), forward(color.y), forward(color.z), 0.0f);
 }
 
-// The square of the inverse of the polynomial of Chiang et al. 2016, eq. 9.
-static double per_log(double n)
+// As absorption_of() of fibre.h takes it.
+static double per_log(float azimuthal)
 {
-    const double p = 5.969 + n * (-0.215 + n * (2.532 + n * (-10.73 + n * (5.574 + n * 0.245))));
+    const double p = color_per_root_absorption(azimuthal);
     return 1.0 / (p * p);
 }
 

@@ -82,23 +82,19 @@ void Studio::note_moment(long target)
 
 void Studio::play_to(double seconds)
 {
-    const long steps = std::lround(seconds / simulation_.step_seconds());
-    note_moment(steps);
-    while (simulation_.steps() < steps)
-    {
-        simulation_.step(simulation_.hand());
-        note_moment(steps);
-        if (simulation_.steps() % 16 == 1)
-            simulation_.solver().take_times(); // lets the queue's uploads go
-    }
+    const long target = std::lround(seconds / simulation_.step_seconds());
+    note_moment(target);
+    coif::play_to(simulation_, seconds, [&] { note_moment(target); });
 }
 
-void play_to(Simulation& simulation, double seconds)
+void play_to(Simulation& simulation, double seconds, const std::function<void()>& after_step)
 {
     const long steps = std::lround(seconds / simulation.step_seconds());
     while (simulation.steps() < steps)
     {
         simulation.step(simulation.hand());
+        if (after_step)
+            after_step();
         if (simulation.steps() % 16 == 1)
             simulation.solver().take_times(); // lets the queue's uploads go
     }

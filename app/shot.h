@@ -3,6 +3,7 @@
 #include "app/renderer.h"
 
 #include <deque>
+#include <functional>
 #include <optional>
 
 namespace coif
@@ -25,7 +26,7 @@ void parse_size(const std::string& text, ShotOptions& shot);
 void check_shot(const Options& options, const ShotOptions& shot);
 
 // Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
-void play_to(Simulation& simulation, double seconds);
+void play_to(Simulation& simulation, double seconds, const std::function<void()>& after_step = {});
 
 // The camera that is asked for, `turn` (rad) further round its target; with the head where teleports have carried it.
 Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn);

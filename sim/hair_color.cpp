@@ -8,7 +8,7 @@ namespace coif
 
 static constexpr float kDarkest = 1e-20f; // of a channel: a float has its logarithm, and light has none left
 
-static double light_lost_with(float azimuthal) // the denominator of eq. 9, positive over [0, 1]
+double color_per_root_absorption(float azimuthal)
 {
     const double n = std::clamp(azimuthal, 0.0f, 1.0f);
     return 5.969 + n * (-0.215 + n * (2.532 + n * (-10.73 + n * (5.574 + n * 0.245))));
@@ -16,7 +16,7 @@ static double light_lost_with(float azimuthal) // the denominator of eq. 9, posi
 
 glm::vec3 absorption_of_color(const glm::vec3& color, float azimuthal)
 {
-    const double by = light_lost_with(azimuthal);
+    const double by = color_per_root_absorption(azimuthal);
     glm::vec3 absorption;
     for (int c = 0; c < 3; ++c)
     {
@@ -28,7 +28,7 @@ glm::vec3 absorption_of_color(const glm::vec3& color, float azimuthal)
 
 glm::vec3 color_of_absorption(const glm::vec3& absorption, float azimuthal)
 {
-    const double by = light_lost_with(azimuthal);
+    const double by = color_per_root_absorption(azimuthal);
     glm::vec3 color;
     for (int c = 0; c < 3; ++c)
         color[c] = std::max(kDarkest, float(std::exp(-by * std::sqrt(std::max(0.0, double(absorption[c]))))));

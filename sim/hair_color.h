@@ -14,6 +14,9 @@ namespace coif
 glm::vec3 absorption_of_color(const glm::vec3& color, float azimuthal);
 glm::vec3 color_of_absorption(const glm::vec3& absorption, float azimuthal);
 
+// Its denominator, positive: the negative logarithm of the colour over the root of the absorption.
+double color_per_root_absorption(float azimuthal);
+
 // The same of amounts of melanin: d'Eon, Francois, Hill, Letteri, Aubry. An energy-conserving hair reflectance model.
 // 2011, section 6.1.
 glm::vec3 absorption_of_melanin(float eumelanin, float pheomelanin);
