@@ -18,6 +18,7 @@ static const BenchScene kScenes[] = {
     {"guides", "guides, and what is drawn of them", bench_guides},
     {"thesis", "against the thesis' own way", bench_thesis},
     {"picture", "drawing strands", bench_picture},
+    {"look", "light in hair", bench_look},
     {"growth", "over strands and cores", bench_growth},
 };
 

@@ -38,6 +38,7 @@ std::vector<BenchRow> bench_whole_head(const Benching& with); // 102,400 strands
 std::vector<BenchRow> bench_guides(const Benching& with);     // 4096 strands; 256 of which 4096 are drawn
 std::vector<BenchRow> bench_thesis(const Benching& with);     // its kernel and its grid against ours
 std::vector<BenchRow> bench_picture(const Benching& with);    // strands drawn either way
+std::vector<BenchRow> bench_look(const Benching& with);       // light in hair, at each level
 std::vector<BenchRow> bench_growth(const Benching& with);     // over the number of strands and of cores
 
 // Runs the scenes, writes bench.csv, bench.json and plots/ into options.output, and prints a table. Returns the exit
