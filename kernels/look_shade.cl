@@ -188,8 +188,9 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             const real back = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + l.w);
             const real back_further = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + further);
             const Rgb g = far_field(fibre, a, lobe_heights(fibre, a, further), absorb, 2, true);
-            const Rgb behind = rgb(back_albedo(c.forward.r, c.backward.r), back_albedo(c.forward.g, c.backward.g),
-                                   back_albedo(c.forward.b, c.backward.b));
+            const Rgb behind = rgb(stack_albedo(c.forward.r, c.backward.r, FIBRES_BEHIND),
+                                   stack_albedo(c.forward.g, c.backward.g, FIBRES_BEHIND),
+                                   stack_albedo(c.forward.b, c.backward.b, FIBRES_BEHIND));
             sum.r += e.x * (straight * (f.r + behind.r * back) +
                             open * forwarded(c.forward.r, tau) * (g.r + behind.r * back_further));
             sum.g += e.y * (straight * (f.g + behind.g * back) +

@@ -288,7 +288,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         {
             const Shares s = shares(c, a.si);
             const double forward = s.of(&Crossed::forward), backward = s.of(&Crossed::backward);
-            const double behind = in_doubles::back_albedo(forward, backward);
+            const double behind = in_doubles::stack_albedo(forward, backward, FIBRES_BEHIND);
             const double handed = std::exp((forward - 1) * tau) - std::exp(-tau);
             sum[c] +=
                 e[c] *

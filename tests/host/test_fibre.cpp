@@ -483,6 +483,27 @@ TEST(Fibre, AStackOfFibresThrowsBackTheSumOfAllOrders)
         }
 }
 
+TEST(Fibre, AStackThatEndsThrowsBackWhatItsFibresDoOneByOne)
+{
+    for (const double backward : {1e-3, 0.05, 0.2, 0.4})
+        for (const double lost : {0.0, 1e-3, 0.1, 0.5})
+        {
+            const double forward = 1.0 - backward - lost;
+            double thrown = backward; // of one fibre, then of one more before those that there are
+            for (int fibres = 1; fibres <= 16; ++fibres)
+            {
+                const double found = double(in_floats::stack_albedo(float(forward), float(backward), float(fibres)));
+                EXPECT_NEAR(found, thrown - backward, 2e-3) << backward << ' ' << lost << ' ' << fibres;
+                thrown = backward + forward * forward * thrown / (1.0 - backward * thrown);
+            }
+            if (lost >= 0.1) // sixteen are as good as endlessly many
+            {
+                EXPECT_NEAR(double(in_floats::back_albedo(float(forward), float(backward))), thrown - backward, 1e-3)
+                    << backward << ' ' << lost;
+            }
+        }
+}
+
 TEST(Fibre, HandedOnLightIsThatOfAPoissonNumberOfCrossings)
 {
     for (const double forward : {0.0, 0.04, 0.5, 0.9, 1.0})
@@ -571,6 +592,7 @@ TEST(Fibre, AllIsFiniteAtTheEnds)
                     const Crossed c = from_table(table, absorb, sine);
                     const float f = float(c.forward), b = float(c.backward);
                     look_at(in_floats::back_albedo(f, b));
+                    look_at(in_floats::stack_albedo(f, b, 7.0f));
                     look_at(in_floats::back_variance(f, b, float(c.forward_variance), float(c.backward_variance)));
                     for (const float tau : {0.0f, 1e-6f, 60.0f, 1e6f})
                     {
