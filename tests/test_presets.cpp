@@ -48,7 +48,8 @@ TEST_P(Preset, LooksAsItDid)
     const std::string name = GetParam().stem().string();
     Options options;
     options.style = GetParam().string();
-    options.sets = {"render.method=geometry"}; // what they were drawn by; test_rasteriser.cpp compares the two
+    // What they were drawn by: test_rasteriser.cpp compares the methods, test_look_pictures.cpp the levels.
+    options.sets = {"render.method=geometry", "look.level=kajiya_kay"};
     if (const char* wish = std::getenv("COIF_TEST_DEVICE"))
         options.device = wish;
     ShotOptions shot;

@@ -65,7 +65,8 @@ std::vector<BenchRow> bench_picture(const Benching& with)
         with.progress(fmt::format("{} strands", strands));
         Options options;
         options.style = "long";
-        options.sets = {fmt::format("interpolation.strands={}", strands), "camera.distance=0.5"};
+        options.sets = {fmt::format("interpolation.strands={}", strands), "camera.distance=0.5",
+                        "look.level=kajiya_kay"}; // the thesis'
         Hairstyle style = load_style(options);
         style.host.partings.clear(); // of which each strand would keep its own colours
         Simulation simulation(with.device, style);

@@ -11,6 +11,7 @@
 #include "app/traced/accumulation.h"
 #include "sim/distance_grid.h"
 #include "sim/error.h"
+#include "sim/light_file.h"
 #include "sim/source.h"
 
 #include <glm/geometric.hpp>
@@ -36,34 +37,14 @@ constexpr Pigment kPigments[] = {{"brown", 1.3f, 0.2f, 0.93},
                                  {"red", 0.3f, 1.0f, 0.91},
                                  {"white", 0.01f, 0.0f, 0.85}};
 
-struct Lights
-{
-    const char* name;
-    std::vector<Light> lights; // whose colours are linear here
-    glm::vec3 sky;
-};
+// The constants of kernels/look.h were chosen on other styles, and under other lights.
+constexpr const char* kStyles[] = {"long", "ringlets", "wolf_cut"};
+constexpr const char* kLights[] = {"studio.toml", "outdoors.toml", "rim.toml"};
 
 constexpr double kRadiance = 0.15, kRoughly = 0.23; // what dual scattering may be off by, and over 6 pixels
 constexpr float kHair = 0.9f; // share of a pixel that makes it the hair's: skin that shows through is brighter
 constexpr double kFar = 6.0, kLocks = 2.0; // pixels that pictures are blurred by
 } // namespace
-
-static std::vector<Lights> lights_of()
-{
-    const auto light = [](const char* name, glm::vec3 towards, float irradiance)
-    {
-        Light one;
-        one.name = name;
-        one.direction = glm::normalize(towards);
-        one.irradiance = irradiance;
-        return one;
-    };
-    return {{"key, rim and sky",
-             {light("key", {-0.55f, 0.75f, 0.75f}, 2.5f), light("rim", {0.75f, 0.55f, -0.85f}, 2.35f)},
-             glm::vec3(0.27f)},
-            {"from the front", {light("front", {0.3f, 0.25f, 0.95f}, 3.0f)}, glm::vec3(0.0f)},
-            {"from behind", {light("back", {-0.2f, 0.45f, -0.9f}, 3.0f)}, glm::vec3(0.0f)}};
-}
 
 // Gaussian, separable, of all channels; the border is repeated.
 static std::vector<float> blurred(const std::vector<float>& values, int width, int height, int channels, double sigma)
@@ -232,34 +213,29 @@ std::vector<Row> measure_look(const Measuring& with)
     const int width = with.quick ? 120 : 240, height = with.quick ? 137 : 274, samples = with.quick ? 16 : 48;
     const std::vector<std::string> levels = param_labels(*find_param("look.level"));
     std::vector<Row> rows;
-    for (const char* name : {"bob", "wavy", "curly"})
+    for (const char* name : std::span(kStyles).first(with.quick ? 1 : std::size(kStyles)))
     {
-        if (with.quick && std::string(name) != "bob")
-            continue;
         Hairstyle style = load_hairstyle(find_style(name));
-        style.host.lights.clear();
         Simulation simulation(with.device, style);
         simulation.solver().draw();
         Camera camera = camera_of(style.params);
         camera.distance = 0.8;
-        for (const Lights& lights : lights_of())
+        for (const char* lights : std::span(kLights).first(with.quick ? 1 : std::size(kLights)))
         {
-            if (with.quick && lights.sky.x == 0.0f)
-                continue;
+            set_own_lights(style, load_lights(data_folder() / "hairstyles" / "lights" / lights));
             const std::span pigments = std::span(kPigments).first(with.quick ? 2 : std::size(kPigments));
             Comparison sheet(int(pigments.size()), width, height);
             for (const Pigment& pigment : pigments)
             {
-                const std::string setting = fmt::format("{}, {}, {}", name, pigment.name, lights.name);
+                const std::string setting =
+                    fmt::format("{}, {}, {}", name, pigment.name, std::filesystem::path(lights).stem().string());
                 with.progress(setting);
                 style.params.look_pigment = 1;
                 style.params.look_eumelanin = pigment.eumelanin;
                 style.params.look_pheomelanin = pigment.pheomelanin;
-                style.host.lights = lights.lights;
                 simulation.set_style(style);
                 simulation.solver().draw();
                 FrameInput frame = frame_input(simulation, camera);
-                frame.lighting.sky = lights.sky;
                 frame.samples = with.quick ? 4 : 16;
                 frame.transparent = true;
 
@@ -295,7 +271,9 @@ std::vector<Row> measure_look(const Measuring& with)
             if (!with.folder.empty())
             {
                 make_folder(with.folder / "look");
-                save_png(with.folder / "look" / fmt::format("{}, {}.png", name, lights.name), sheet.page);
+                save_png(with.folder / "look" /
+                             fmt::format("{}, {}.png", name, std::filesystem::path(lights).stem().string()),
+                         sheet.page);
             }
         }
     }

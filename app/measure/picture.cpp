@@ -5,6 +5,7 @@
 #include "app/measure/geodesic.h"
 #include "app/measure/measure.h"
 #include "app/renderer.h"
+#include "app/shading.h"
 #include "app/ssim.h"
 #include "app/statistics.h"
 #include "sim/error.h"
@@ -105,6 +106,7 @@ static Subject subject_of(const Measuring& with, const std::string& name, int st
     Subject subject{load_hairstyle(find_style(name)), {}, {}, {}};
     HairParams& p = subject.style.params;
     p.root_lift_variation = p.root_sweep_variation = 0.0f;
+    p.look_level = LOOK_KAJIYA_KAY; // what is judged is the shape
     p.interpolation_strands = std::min(p.interpolation_strands, strands);
     const Simulation simulation(with.device, subject.style);
     const Scalp& scalp = simulation.assets().scalp;
