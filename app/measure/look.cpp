@@ -210,7 +210,7 @@ std::vector<Row> measure_look(const Measuring& with)
 {
     const Window window(16, 16, Window::HIDDEN);
     Renderer renderer(data_folder() / "shaders");
-    const int width = with.quick ? 120 : 240, height = with.quick ? 137 : 274, samples = with.quick ? 16 : 48;
+    const int width = with.quick ? 120 : 160, height = with.quick ? 137 : 183, samples = with.quick ? 16 : 32;
     const std::vector<std::string> levels = param_labels(*find_param("look.level"));
     std::vector<Row> rows;
     for (const char* name : std::span(kStyles).first(with.quick ? 1 : std::size(kStyles)))
