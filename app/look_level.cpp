@@ -20,7 +20,7 @@ LitScene lit_scene(const Simulation& simulation)
     scene.params = device_params(p);
     scene.waves = wave_table(p);
     scene.braids = braid_values(solver.groom());
-    scene.lighting = lighting_of(p, simulation.style().host);
+    scene.lighting = simulation.lighting();
     scene.low = glm::vec3(INFINITY);
     scene.high = glm::vec3(-INFINITY);
     glm::vec3 low(INFINITY), high(-INFINITY); // of the head's mesh in its own frame

@@ -1,4 +1,5 @@
 // Pictures of the levels above Kajiya-Kay: drawn either way, and of what nobody should ask for.
+#include "app/look_level.h"
 #include "app/renderer.h"
 #include "app/shading.h"
 #include "app/ssim.h"
@@ -135,6 +136,17 @@ TEST_F(LookPicture, NoLightIsBlackHairAndMoreIsBrighter)
     const double black = brightness(
         picture(lit_style({"look.light_color='#000000'", "look.sky_radiance=0", "look.background='#000000'"})));
     EXPECT_EQ(black, 0.0);
+}
+
+TEST_F(LookPicture, WhatIsReportedIsLitByTheLightsThatAreSeen)
+{
+    const FrameInput frame = frame_of(lit_style({"look.lights=rim.toml"}));
+    const Lighting reported = lit_scene(*simulation).lighting;
+    ASSERT_EQ(frame.lighting.suns.size(), 2u);
+    ASSERT_EQ(reported.suns.size(), 2u);
+    for (size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(reported.suns[i].irradiance, frame.lighting.suns[i].irradiance);
+    EXPECT_EQ(reported.sky, frame.lighting.sky);
 }
 
 TEST_F(LookPicture, WhatNobodyShouldAskForIsDrawn)

@@ -21,7 +21,7 @@ std::vector<BenchRow> bench_look(const Benching& with)
 {
     Options options;
     options.style = "bob";
-    options.sets = {"interpolation.strands=4096", "look.lights=studio.toml"};
+    options.sets = {"interpolation.strands=4096", "look.lights=rim.toml"}; // two suns and a sky
     const Hairstyle style = load_style(options);
     Simulation simulation(with.device, style);
     simulation.solver().draw();
