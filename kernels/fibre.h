@@ -291,7 +291,7 @@ CURVE_FUNCTION REAL back_albedo(REAL forward, REAL backward)
 }
 
 // The same of a stack that ends after so many fibres, that one among them, before something dark (Stokes 1862 again):
-// of white hair, which an endless stack leaves no light in, a thin one lets much through.
+// an endless stack of white hair throws all light back, a thin one lets much through.
 CURVE_FUNCTION REAL stack_albedo(REAL forward, REAL backward, float fibres)
 {
     // Without a little loss both what comes back of the endless stack and what gets on through it were 1, and their

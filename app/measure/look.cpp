@@ -39,7 +39,7 @@ constexpr Pigment kPigments[] = {{"brown", 1.3f, 0.2f, 0.93},
 
 // The constants of kernels/look.h were chosen on other styles, and under other lights.
 constexpr const char* kStyles[] = {"long", "ringlets", "wolf_cut"};
-constexpr const char* kLights[] = {"studio.toml", "outdoors.toml", "rim.toml"};
+constexpr const char* kLights[] = {"studio", "outdoors", "rim"};
 
 constexpr double kRadiance = 0.15, kRoughly = 0.23; // what dual scattering may be off by, and over 6 pixels
 constexpr float kHair = 0.9f; // share of a pixel that makes it the hair's: skin that shows through is brighter
@@ -222,13 +222,13 @@ std::vector<Row> measure_look(const Measuring& with)
         camera.distance = 0.8;
         for (const char* lights : std::span(kLights).first(with.quick ? 1 : std::size(kLights)))
         {
-            set_own_lights(style, load_lights(data_folder() / "hairstyles" / "lights" / lights));
+            set_own_lights(style,
+                           load_lights(data_folder() / "hairstyles" / "lights" / fmt::format("{}.toml", lights)));
             const std::span pigments = std::span(kPigments).first(with.quick ? 2 : std::size(kPigments));
             Comparison sheet(int(pigments.size()), width, height);
             for (const Pigment& pigment : pigments)
             {
-                const std::string setting =
-                    fmt::format("{}, {}, {}", name, pigment.name, std::filesystem::path(lights).stem().string());
+                const std::string setting = fmt::format("{}, {}, {}", name, pigment.name, lights);
                 with.progress(setting);
                 style.params.look_pigment = 1;
                 style.params.look_eumelanin = pigment.eumelanin;
@@ -271,9 +271,7 @@ std::vector<Row> measure_look(const Measuring& with)
             if (!with.folder.empty())
             {
                 make_folder(with.folder / "look");
-                save_png(with.folder / "look" /
-                             fmt::format("{}, {}.png", name, std::filesystem::path(lights).stem().string()),
-                         sheet.page);
+                save_png(with.folder / "look" / fmt::format("{}, {}.png", name, lights), sheet.page);
             }
         }
     }
