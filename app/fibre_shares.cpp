@@ -25,6 +25,12 @@ double lobe_logistic(double azimuthal)
     return std::sqrt(kPi / 8.0) * (0.265 * n + 1.194 * n * n + 5.372 * std::pow(n, 22));
 }
 
+double mean_on_cone(double roughness)
+{
+    const double v = lobe_variance(roughness);
+    return 1.0 / std::tanh(1.0 / v) - v;
+}
+
 static double dielectric(double cosine, double ior)
 {
     const double t = std::sqrt(std::max(0.0, 1.0 - (1.0 - cosine * cosine) / (ior * ior)));

@@ -20,6 +20,10 @@ Crossed crossed(double absorption, double sine, double roughness, double azimuth
 double lobe_variance(double roughness);
 double lobe_logistic(double azimuthal);
 
+// The mean of sin(theta) that light comes from, to -sin(theta) that it is seen at: of the lobe R, which is between the
+// narrow TT and the wide TRT (the mean of the distribution that d'Eon et al. 2011, eq. 7, is made of: Fisher 1953).
+double mean_on_cone(double roughness);
+
 // Roughness below which nothing is told apart: the lobe would be narrower than numbers are.
 constexpr double kLeastRoughness = 0.02;
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -127,7 +128,37 @@ void Shading::place_volume(const LitScene& scene)
 
 static size_t voxels_of(const LookVolume& v) { return size_t(v.x) * size_t(v.y) * size_t(v.z); }
 
-// Extinction and optical depth along each sun's rays, and along the sky's through coarser voxels.
+// Extinction along so many rays through the volume that kernels read, and what the sweep finds. `whose` goes before the
+// names of the rays and of both.
+void Shading::follow(const LookVolume& volume, const std::string& whose, size_t rays, const std::string& what)
+{
+    const size_t all = voxels_of(volume), width = size_t(passes_.device.width);
+    const size_t lanes = all / width, side = size_t(std::max({volume.x, volume.y, volume.z}));
+    passes_.room_for(whose + "extinction", all * rays * sizeof(float));
+    passes_.room_for(whose + "depth", all * rays * sizeof(float));
+    const auto rename = [&]
+    {
+        if (!whose.empty())
+            for (const char* name : {"rays", "extinction", "depth"})
+                std::swap(passes_.buffers[name], passes_.buffers[whose + name]);
+    };
+    rename();
+    try
+    {
+        passes_.launch("look_extinction", what, cl::NDRange(lanes, rays), cl::NDRange(lanes % 64 == 0 ? 64 : 1, 1));
+        passes_.launch("look_sweep", what == "-D FRONT" ? what : "",
+                       cl::NDRange((side + width - 1) / width, side, rays),
+                       cl::NDRange(passes_.device.is_gpu ? 8 : 1, 1, 1));
+    }
+    catch (...)
+    {
+        rename();
+        throw;
+    }
+    rename();
+}
+
+// Optical depth along each sun's rays, and along the sky's through coarser voxels.
 void Shading::sweep(const Lighting& lighting)
 {
     std::vector<LookRay> suns, sky;
@@ -140,65 +171,49 @@ void Shading::sweep(const Lighting& lighting)
     for (int i = 0; i < SKY_RAYS; ++i)
         sky.push_back(ray_towards(coarse_, sky_direction(i)));
     suns_ = int(suns.size());
-    const auto follow = [&](const LookVolume& volume, const std::vector<LookRay>& rays, const std::string& what)
-    {
-        const size_t all = voxels_of(volume), width = size_t(passes_.device.width);
-        const size_t lanes = all / width, side = size_t(std::max({volume.x, volume.y, volume.z}));
-        passes_.launch("look_extinction", what, cl::NDRange(lanes, rays.size()),
-                       cl::NDRange(lanes % 64 == 0 ? 64 : 1, 1));
-        passes_.launch("look_sweep", "", cl::NDRange((side + width - 1) / width, side, rays.size()),
-                       cl::NDRange(passes_.device.is_gpu ? 8 : 1, 1, 1));
-    };
     if (suns.empty())
         suns.push_back(ray_towards(volume_, {0.0f, 1.0f, 0.0f})); // kernels ask for a ray; no sun reads it
     passes_.fill("rays", suns);
-    passes_.room_for("extinction", voxels_of(volume_) * suns.size() * sizeof(float));
-    passes_.room_for("depth", voxels_of(volume_) * suns.size() * sizeof(float));
-    if (suns_ > 0)
-        follow(volume_, suns, "");
+    follow(volume_, "", suns.size(), "");
 
     const size_t coarse = voxels_of(coarse_);
     passes_.room_for("coarse_fibre", coarse * 5 * sizeof(float));
     passes_.room_for("sky", coarse * 16 * sizeof(float));
     passes_.launch("look_coarse", "", coarse);
-    // The coarse volume under the name of the fine one, with rays and what is found along them, and back.
-    const auto follow_coarsely =
-        [&](const std::string& whose, const std::vector<LookRay>& rays, const std::string& what)
+    // The coarse volume under the name of the fine one, and back.
+    const auto swap_volumes = [&]
     {
-        const auto other = [&]
-        {
-            std::swap(passes_.buffers["volume"], passes_.buffers["coarse_volume"]);
-            std::swap(passes_.buffers["fibre"], passes_.buffers["coarse_fibre"]);
-            for (const char* name : {"rays", "extinction", "depth"})
-                std::swap(passes_.buffers[name], passes_.buffers[whose + "_" + name]);
-        };
-        passes_.fill(whose + "_rays", rays);
-        passes_.room_for(whose + "_extinction", coarse * rays.size() * sizeof(float));
-        passes_.room_for(whose + "_depth", coarse * rays.size() * sizeof(float));
-        other();
-        try
-        {
-            follow(coarse_, rays, what);
-        }
-        catch (...)
-        {
-            other();
-            throw;
-        }
-        other();
+        std::swap(passes_.buffers["volume"], passes_.buffers["coarse_volume"]);
+        std::swap(passes_.buffers["fibre"], passes_.buffers["coarse_fibre"]);
     };
-    follow_coarsely("sky", sky, "");
+    passes_.fill("sky_rays", sky);
     std::vector<LookRay> bodies;
     for (const LookRay& sun : suns)
         bodies.push_back(ray_towards(coarse_, {sun.direction.x, sun.direction.y, sun.direction.z}));
-    follow_coarsely("body", bodies, "-D BODIES");
+    passes_.fill("body_rays", bodies);
+    swap_volumes();
+    try
+    {
+        follow(coarse_, "sky_", sky.size(), "");
+        follow(coarse_, "body_", bodies.size(), "-D BODIES");
+    }
+    catch (...)
+    {
+        swap_volumes();
+        throw;
+    }
+    swap_volumes();
     const size_t width = size_t(passes_.device.width);
     passes_.launch("look_sky", options_, cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),
                    cl::NDRange(1, 1, 1));
 }
 
-// The light that the hair hands on in each channel, on the whole: by the mean of its colours.
-static float4 handed_on(const HairParams& params, const Groom& groom, const std::vector<float>& table, double per_log)
+// What light loses on its way through hair, by the mean of its colours, as the share that is left of a crossing in each
+// channel: first of light that comes one way (Zinke et al. 2008, eq. 5), then of light from all sides, where what
+// fibres throw back comes back again: sqrt(K (K + 2 S)) of what they swallow, K, and throw back, S (Kubelka, Munk. Ein
+// Beitrag zur Optik der Farbanstriche. 1931).
+static std::vector<float4> handed_on(const HairParams& params, const Groom& groom, const std::vector<float>& table,
+                                     double per_log)
 {
     glm::dvec3 color(0.0);
     const auto add = [&](const float4& c, double weight) { color += weight * glm::dvec3(c.x, c.y, c.z); };
@@ -212,12 +227,18 @@ static float4 handed_on(const HairParams& params, const Groom& groom, const std:
         add(params.look_root_color, 0.5);
         add(params.look_tip_color, 0.5);
     }
-    const auto forward = [&](double c)
+    std::array<double, 3> one_way, all_sides;
+    for (int i = 0; i < 3; ++i)
     {
-        const double log = std::log(std::clamp(c, 1e-4, 0.9999));
-        return float(from_table(table, log * log * per_log, 0.5).forward);
-    };
-    return F4(forward(color.x), forward(color.y), forward(color.z), 0.0f);
+        const double log = std::log(std::clamp(color[i], 1e-4, 0.9999));
+        const Crossed c = from_table(table, log * log * per_log, 0.5);
+        one_way[size_t(i)] = c.forward;
+        all_sides[size_t(i)] =
+            1.0 - std::sqrt(std::max((1.0 - c.forward) * (1.0 - c.forward) - c.backward * c.backward, 0.0));
+    }
+    const auto as_float4 = [](const std::array<double, 3>& v)
+    { return F4(float(v[0]), float(v[1]), float(v[2]), 0.0f); };
+    return {as_float4(one_way), as_float4(all_sides)};
 }
 
 // As absorption_of() of fibre.h takes it.
@@ -249,8 +270,7 @@ try
         passes_.fill("shares", table_);
     }
     passes_.fill("params", std::vector<HairParams>(1, params_));
-    passes_.fill("forward",
-                 std::vector<float4>(1, handed_on(params_, groom, table_, per_log(params_.look_azimuthal_roughness))));
+    passes_.fill("forward", handed_on(params_, groom, table_, per_log(params_.look_azimuthal_roughness)));
     passes_.fill("wave_table", scene.waves);
     passes_.fill("braids", scene.braids.empty() ? std::vector<float4>(1, F4(0, 0, 0, 0)) : scene.braids);
     look_at(glm::vec3(0.0f), 1.0f, 0);
@@ -299,7 +319,20 @@ void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces, int stride)
     frame.braided = braided_;
     frame.surfaces = int(surfaces);
     frame.stride = stride;
+    frame.cone = float(mean_on_cone(params_.look_roughness));
     passes_.fill("look_frame", std::vector<LookFrame>(1, frame));
+}
+
+// How far behind what the eye sees each voxel lies, by rays from the volume's middle.
+void Shading::find_front(glm::vec3 eye)
+{
+    const glm::vec3 middle = glm::vec3(volume_.corner.x, volume_.corner.y, volume_.corner.z) +
+                             0.5f * volume_.corner.w * glm::vec3(float(volume_.x), float(volume_.y), float(volume_.z));
+    const glm::vec3 way = eye - middle;
+    const float far = glm::length(way);
+    passes_.fill("eye_rays",
+                 std::vector<LookRay>(1, ray_towards(volume_, far > 1e-6f ? way / far : glm::vec3(0.0f, 0.0f, 1.0f))));
+    follow(volume_, "eye_", 1, "-D FRONT");
 }
 
 const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept)
@@ -307,6 +340,8 @@ try
 {
     const size_t strands = size_t(volume_.strands);
     look_at(eye, kept, 0);
+    if (strands > 0)
+        find_front(eye);
     shaded_.colors =
         passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
     if (strands > 0)

@@ -58,6 +58,8 @@ class Shading
   private:
     void place_volume(const LitScene& scene);
     void sweep(const Lighting& lighting);
+    void follow(const LookVolume& volume, const std::string& whose, size_t rays, const std::string& what);
+    void find_front(glm::vec3 eye);
     void look_at(glm::vec3 eye, float kept, size_t surfaces, int stride = 1);
 
     Passes passes_;

@@ -6,7 +6,7 @@
 //   look_volume      that, with the bodies that stand in it
 //   look_coarse      the same in voxels three times as wide, for the sky
 //   look_extinction  what each voxel takes away from each ray's light
-//   look_sweep       the optical depth along the rays, away from their light
+//   look_sweep       the optical depth along the rays, away from their light, or how far behind what is seen
 //   look_sky         what of the sky is left in each coarse voxel, and where it comes from
 //   look_shade       the colour of each place
 //   look_share       how much of the light there comes by way of other fibres
@@ -20,13 +20,14 @@
 #define SKY_RAYS 26 // directions that the sky is looked at in
 #define COARSE 3    // voxels to a coarse one, each way
 
-// Strands that are seen lie at the outside of the hair, within less than a voxel, and the volume smears that outside
-// inwards: light is looked up so many voxels towards the sun, and coarse voxels towards where the sky comes from. And
-// hair is no endless stack: behind a fibre that is seen there are so many, then skin or nothing. Chosen together on
-// bob, wavy and curly in five colours under a light from the front, one from behind, a sky, and key, rim and sky, where
-// the mean of |log(radiance / traced radiance)| is .15 (.21 with the first two chosen on bob alone).
-#define OUT_TO_SUN 1.75f
-#define OUT_TO_SKY 0.36f
+// The volume smears hair over two voxels, in dense hair more than light comes through, but what is seen lies where the
+// eye's own ray meets it: light is looked up where that has come through so much optical depth (SEEN), so many voxels
+// further to the sun, and coarse voxels further to the eye for the sky. A place that lies deeper is moved there, one in
+// front of it is not: what is moved is hidden anyway. And hair is no endless stack: behind a fibre that is seen there
+// are so many, then skin or nothing. README.md says on what these were chosen, and how well they do on other hair.
+#define SEEN 0.7f
+#define OUT_TO_SUN 1.0f
+#define SKY_TO_EYE 0.3f
 #define FIBRES_BEHIND 7.0f
 
 #define SHARE_TERMS 12 // floats a row of the table of shares: look_shade.cl
@@ -68,7 +69,8 @@ typedef struct LookFrame
     int suns, nodes, braided;
     int surfaces; // points of solid things
     int stride;   // from strand to strand, for look_share
-    int unused0, unused1;
+    float cone;   // how far light that a fibre sends one way comes from one inclination, 0 to 1: mean_on_cone()
+    int unused;
 } LookFrame;
 
 // A point of something solid.

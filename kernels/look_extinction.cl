@@ -11,16 +11,20 @@ kernel void look_extinction(global const float* fibre, global float* extinction,
     const int all = volume_voxels(volume), at = (int)get_global_id(0) * WIDTH;
     if (at >= all)
         return;
-#ifdef BODIES // alone
+#if defined(BODIES) // alone
     const real taken = LANES_LOAD(fibre + 4 * all + at) * 0.785398163f;
 #else
     const real x = LANES_LOAD(fibre + at), y = LANES_LOAD(fibre + all + at), z = LANES_LOAD(fibre + 2 * all + at);
+#ifdef FRONT // hair alone: what lies behind a body is not seen
+    const real amount = LANES_LOAD(fibre + 3 * all + at) - LANES_LOAD(fibre + 4 * all + at);
+#else
     const real amount = LANES_LOAD(fibre + 3 * all + at);
+#endif
     const float4 l = rays[get_global_id(1)].direction;
     const real way = sqrt(x * x + y * y + z * z), per_way = 1.0f / fmax(way, (real)(1e-12f));
     const real along = (x * l.x + y * l.y + z * l.z) * per_way;
     const real across = sqrt(fmax(1.0f - along * along, (real)(0.0f)));
-    const real taken = way * across + (amount - fmin(way, amount)) * 0.785398163f;
+    const real taken = way * across + fmax(amount - way, (real)(0.0f)) * 0.785398163f;
 #endif
     LANES_STORE(params->look_self_shadow * taken, extinction + get_global_id(1) * (size_t)all + at);
 }

@@ -71,9 +71,8 @@ static inline Points in_voxels(Points p, float4 direction, float moved, constant
 }
 
 // What look_sky.cl has left of a uniform sky, at a point of one lane: for light that comes straight, and for that of
-// each channel with what fibres hand on; from the half of the sky about `way` (unit length) and from the other.
-// `cosine`: the mean of that to `way` over the half, as what is lit there weighs it: 1/2 for all directions alike, 2/3
-// for a surface.
+// each channel with what fibres hand on; from two sides that differ in sign. Each is told by the mean of the directions
+// that it is seen from, as what is lit there weighs them: `middle` and `aside`, `middle` and -`aside`.
 typedef struct SkyShares
 {
     float4 front, behind; // straight, red, green, blue
@@ -100,22 +99,19 @@ static inline float16 sky_at(global const float* sky, float x, float y, float z,
     return mix(low, high, fz);
 }
 
-// `out`: coarse voxels towards where most of it comes from.
-static inline SkyShares sky_shares(global const float* sky, float x, float y, float z, float4 way, float cosine,
-                                   float out, constant LookVolume* coarse_volume)
+static inline float4 leaning_to(float16 moments, float4 way)
 {
-    float16 found = sky_at(sky, x, y, z, coarse_volume);
-    if (out > 0.0f)
-    {
-        const float3 most = (float3)(found.s4, found.s8, found.sc);
-        const float3 moved = most * (out * coarse_volume->corner.w / fmax(length(most), 0.05f));
-        found = sky_at(sky, x + moved.x, y + moved.y, z + moved.z, coarse_volume);
-    }
-    const float4 whole_sky = found.lo.lo;
-    const float4 lean = cosine * (found.lo.hi * way.x + found.hi.lo * way.y + found.hi.hi * way.z);
+    return moments.lo.hi * way.x + moments.hi.lo * way.y + moments.hi.hi * way.z;
+}
+
+static inline SkyShares sky_shares(global const float* sky, float4 at, float4 middle, float4 aside,
+                                   constant LookVolume* coarse_volume)
+{
+    const float16 found = sky_at(sky, at.x, at.y, at.z, coarse_volume);
+    const float4 mean = found.lo.lo + leaning_to(found, middle), lean = leaning_to(found, aside);
     SkyShares shares;
-    shares.front = clamp(whole_sky + lean, 0.0f, 1.0f);
-    shares.behind = clamp(whole_sky - lean, 0.0f, 1.0f);
+    shares.front = clamp(mean + lean, 0.0f, 1.0f);
+    shares.behind = clamp(mean - lean, 0.0f, 1.0f);
     return shares;
 }
 

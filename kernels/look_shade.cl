@@ -9,6 +9,9 @@
 // Work-item: a strand; lanes: places along it. Shares of light that one crossing hands on or throws back (Zinke 2008,
 // eq. 6 and 12) are tables over absorption, for the hair's root, middle and tip; a parabola through them serves the
 // places between.
+// Light is looked up where the eye's ray meets the hair (look.h). A fibre sends on light of the inclination that it
+// came with, mirrored: what of the sky is seen in it comes from a cone about it, and where hair stands on end towards
+// the eye that is the skin's side, however bright the sky is.
 #include "look_rays.h"
 #include "raster_strand.h"
 
@@ -92,7 +95,8 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
                        global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
                        constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
                        constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
-                       global const float* sky, global const float* shares, global uint2* shaded)
+                       constant LookRay* eye_rays, global const float* eye_depth, global const float* sky,
+                       global const float* shares, global uint2* shaded)
 {
     const int strand = (int)get_global_id(0);
     if (strand >= volume->strands || STRAND_TURN(strand) >= look_frame->eye.w * (1.0f + FADE))
@@ -128,6 +132,8 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
     const int count = volume->places;
     global const float4* own = places + (size_t)strand * (size_t)count;
     const float4 eye = look_frame->eye;
+    const LookRay to_eye = eye_rays[0];
+    const float sky_moved = SKY_TO_EYE * coarse_volume->corner.w;
     const size_t all = (size_t)volume_voxels(volume);
     for (int i = 0; i < count; i += WIDTH)
     {
@@ -145,6 +151,9 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             shares_along[lane] = (float)k / (float)(count - 1);
         }
         const Points p = points(LANES_LOAD(px), LANES_LOAD(py), LANES_LOAD(pz));
+        const real hidden = depth_to(eye_depth, to_eye, in_voxels(p, to_eye.direction, 0.0f, volume), volume);
+        const Points seen = points(p.x + hidden * to_eye.direction.x, p.y + hidden * to_eye.direction.y,
+                                   p.z + hidden * to_eye.direction.z);
         real tx = LANES_LOAD(wx), ty = LANES_LOAD(wy) + 1e-12f, tz = LANES_LOAD(wz);
         const real shorten = INVERSE_SQRT(fmax(tx * tx + ty * ty + tz * tz, (real)(1e-30f)));
         tx *= shorten;
@@ -171,7 +180,7 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             const LookRay ray = rays[k];
             const float4 l = ray.direction, e = ray.irradiance;
             const FibreAngles a = fibre_angles(tx * l.x + ty * l.y + tz * l.z, along_eye, ex * l.x + ey * l.y + ez * l.z);
-            const real tau = depth_to(depth + k * all, ray, in_voxels(p, l, OUT_TO_SUN, volume), volume);
+            const real tau = depth_to(depth + k * all, ray, in_voxels(seen, l, OUT_TO_SUN, volume), volume);
             const real straight = open * exp(-tau);
 #if LEVEL == 1
             const Rgb f = karis(fibre, a, absorb, look_frame->roughness);
@@ -204,16 +213,26 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
 #endif
         }
 
-        // The sky, in two halves: what lies before the fibre it throws back, what lies behind it comes through.
-        const real flat = INVERSE_SQRT(fmax(1.0f - along_eye * along_eye, (real)(1e-4f)));
-        float nx[WIDTH], ny[WIDTH], nz[WIDTH], before[4][WIDTH], beyond[4][WIDTH];
-        LANES_STORE((ex - tx * along_eye) * flat, nx);
-        LANES_STORE((ey - ty * along_eye) * flat, ny);
-        LANES_STORE((ez - tz * along_eye) * flat, nz);
+        // The sky, in the two halves of the cone: what lies before the fibre it throws back, what lies behind it comes
+        // through. The mean direction of a half is 2 / pi from the axis.
+        const real eye_cosine = sqrt(fmax(1.0f - along_eye * along_eye, (real)(0.0f)));
+        const real down = -look_frame->cone * along_eye, aside = look_frame->cone * 0.636619772f;
+        float at[3][WIDTH], cone[3][WIDTH], half_cone[3][WIDTH], before[4][WIDTH], beyond[4][WIDTH];
+        LANES_STORE(seen.x + sky_moved * to_eye.direction.x, at[0]);
+        LANES_STORE(seen.y + sky_moved * to_eye.direction.y, at[1]);
+        LANES_STORE(seen.z + sky_moved * to_eye.direction.z, at[2]);
+        LANES_STORE(down * tx, cone[0]);
+        LANES_STORE(down * ty, cone[1]);
+        LANES_STORE(down * tz, cone[2]);
+        LANES_STORE(aside * (ex - tx * along_eye), half_cone[0]);
+        LANES_STORE(aside * (ey - ty * along_eye), half_cone[1]);
+        LANES_STORE(aside * (ez - tz * along_eye), half_cone[2]);
         for (int lane = 0; lane < WIDTH; ++lane)
         {
-            const SkyShares left = sky_shares(sky, px[lane], py[lane], pz[lane],
-                                              (float4)(nx[lane], ny[lane], nz[lane], 0.0f), 0.5f, OUT_TO_SKY, coarse_volume);
+            const SkyShares left =
+                sky_shares(sky, (float4)(at[0][lane], at[1][lane], at[2][lane], 0.0f),
+                           (float4)(cone[0][lane], cone[1][lane], cone[2][lane], 0.0f),
+                           (float4)(half_cone[0][lane], half_cone[1][lane], half_cone[2][lane], 0.0f), coarse_volume);
             before[0][lane] = left.front.x;
             before[1][lane] = left.front.y;
             before[2][lane] = left.front.z;
@@ -223,7 +242,6 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             beyond[2][lane] = left.behind.z;
             beyond[3][lane] = left.behind.w;
         }
-        const real eye_cosine = sqrt(fmax(1.0f - along_eye * along_eye, (real)(0.0f)));
         const Crossing c = crossing_at(curves, tip, inclined(eye_cosine));
         const float4 bright = look_frame->sky;
 #if LEVEL == 3

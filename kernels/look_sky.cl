@@ -1,7 +1,8 @@
 // What is left of a uniform sky in each coarse voxel, and where from: the mean over SKY_RAYS directions d of what comes
 // along them, and of that times 3 d. Of light that comes straight, exp(-tau), and in each channel of that with what fibres
-// hand on, exp(-tau (1 - forward)) (forwarded() of fibre.h); 16 floats a voxel: means, then x, y and z. The power of a
-// mean would be far too bright: tau differs from direction to direction. Work-item: WIDTH coarse voxels along x.
+// hand on, exp(-tau k), where k is what a stack of fibres lit from all sides takes away, to all orders: nothing of white
+// light (handed_on() of app/shading.cpp). 16 floats a voxel: means, then x, y and z. The power
+// of a mean would be far too bright: tau differs from direction to direction. Work-item: WIDTH coarse voxels along x.
 #include "look_rays.h"
 
 kernel void look_sky(global const float* sky_depth, global float* sky, constant LookVolume* coarse_volume,
@@ -12,7 +13,7 @@ kernel void look_sky(global const float* sky_depth, global float* sky, constant 
     for (int lane = 0; lane < WIDTH; ++lane)
         columns[lane] = (float)(first + lane);
     const real x = LANES_LOAD(columns);
-    const float4 handed_on = forward[0];
+    const float4 handed_on = forward[1];
     const size_t all = (size_t)volume_voxels(coarse_volume);
     real sums[16];
     for (int i = 0; i < 16; ++i)

@@ -90,9 +90,9 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     LANES_STORE(above.z, a_z);
     for (int lane = 0; lane < WIDTH && first + lane < points_lit; ++lane)
     {
-        const SkyShares left =
-            sky_shares(sky, a_x[lane], a_y[lane], a_z[lane], (float4)(n_x[lane], n_y[lane], n_z[lane], 0.0f),
-                       2.0f / 3.0f, 0.0f, coarse_volume);
+        // Lambert's cosine weighs directions about the normal; their mean is two thirds of it.
+        const SkyShares left = sky_shares(sky, (float4)(a_x[lane], a_y[lane], a_z[lane], 0.0f), (float4)(0.0f),
+                                          (float4)(n_x[lane], n_y[lane], n_z[lane], 0.0f) * (2.0f / 3.0f), coarse_volume);
         const float4 bright = look_frame->sky;
         lit[first + lane] = (float4)(
             albedo[lane].x * (out[0][lane] + bright.x * left.front.y) + out[3][lane],

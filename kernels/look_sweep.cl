@@ -1,7 +1,8 @@
 // The optical depth along each ray of a bundle, slice after slice away from its light, trapezoidal between slices
 // (Bertails et al. 2005, section 4.2). A ray's slice holds what lies between its voxel's middle and the light:
 // depth[ray of the bundle][slice][v][u], and u and v belong to the ray, which wraps around the volume's sides as
-// light_grid.h says. Work-item: WIDTH rays along u; second: v; third: the bundle.
+// light_grid.h says. With FRONT it is told instead how far a point lies behind the place where the ray has come through
+// SEEN, m; 0 in front of it. Work-item: WIDTH rays along u; second: v; third: the bundle.
 #include "lanes.h"
 #include "look.h"
 
@@ -10,6 +11,12 @@ static inline int on_ring(int at, int size)
     const int rest = at % size;
     return rest < 0 ? rest + size : rest;
 }
+
+#ifdef FRONT
+#define FOUND behind
+#else
+#define FOUND tau
+#endif
 
 kernel void look_sweep(global const float* extinction, global float* depth, constant LookVolume* volume,
                        constant LookRay* rays)
@@ -24,6 +31,9 @@ kernel void look_sweep(global const float* extinction, global float* depth, cons
     global float* found = depth + get_global_id(2) * all;
 
     real tau = (real)(0.0f), before = (real)(0.0f);
+#ifdef FRONT
+    real behind = (real)(0.0f);
+#endif
     int last_u[WIDTH], last_v = j;
     for (int lane = 0; lane < WIDTH; ++lane)
         last_u[lane] = first + lane;
@@ -72,15 +82,20 @@ kernel void look_sweep(global const float* extinction, global float* depth, cons
         }
         const real here = (1.0f - fv) * ((1.0f - fu) * corners[0] + fu * corners[1]) +
                           fv * ((1.0f - fu) * corners[2] + fu * corners[3]);
-        tau += (0.5f * ray.slant.z) * (before + here);
+        const real added = (0.5f * ray.slant.z) * (before + here);
+        tau += added;
         before = here;
+#ifdef FRONT
+        const real since = fmin(tau - SEEN, added) / fmax(added, (real)(1e-12f)); // of this step
+        behind = select((real)(0.0f), select(since * ray.slant.z, behind + ray.slant.z, behind > 0.0f), tau > SEEN);
+#endif
         global float* to = found + (passed * s.v + j) * s.u + first;
         if (first + WIDTH <= s.u)
-            LANES_STORE(tau, to);
+            LANES_STORE(FOUND, to);
         else
         {
             float rest[WIDTH];
-            LANES_STORE(tau, rest);
+            LANES_STORE(FOUND, rest);
             for (int lane = 0; first + lane < s.u; ++lane)
                 to[lane] = rest[lane];
         }

@@ -100,10 +100,12 @@ struct Slice
     }
 };
 
-std::vector<double> sweep(const float* taken, const LookVolume& volume, const LookRay& ray)
+// Calls `found` with each point of a ray in turn: where it is written, the depth there, that before it, and whether the
+// ray starts afresh.
+template <typename Found>
+static void along_rays(const float* taken, const LookVolume& volume, const LookRay& ray, const Found& found)
 {
     const Slice s(volume, ray);
-    std::vector<double> depth(voxels_of(volume));
     for (int j = 0; j < s.v; ++j)
         for (int i = 0; i < s.u; ++i)
         {
@@ -114,7 +116,8 @@ std::vector<double> sweep(const float* taken, const LookVolume& volume, const Lo
                 // The slant's product is a float's, as in oracle::transmittance().
                 const double u = i + double(ray.slant.x * float(passed)), v = j + double(ray.slant.y * float(passed));
                 const int now_u = int(std::floor(std::floor(u) / s.u)), now_v = int(std::floor(std::floor(v) / s.v));
-                if (now_u != rounds_u || now_v != rounds_v)
+                const bool fresh = passed == 0 || now_u != rounds_u || now_v != rounds_v;
+                if (fresh)
                     tau = before = 0.0;
                 rounds_u = now_u;
                 rounds_v = now_v;
@@ -124,12 +127,38 @@ std::vector<double> sweep(const float* taken, const LookVolume& volume, const Lo
                 at[s.v_axis] = v - now_v * s.v;
                 double here = 0.0;
                 about(volume, at, [&](size_t voxel, double weight) { here += weight * double(taken[voxel]); });
+                const double until = tau;
                 tau += 0.5 * (before + here) * double(ray.slant.z);
                 before = here;
-                depth[(size_t(passed) * size_t(s.v) + size_t(j)) * size_t(s.u) + size_t(i)] = tau;
+                found((size_t(passed) * size_t(s.v) + size_t(j)) * size_t(s.u) + size_t(i), tau, until, fresh);
             }
         }
+}
+
+std::vector<double> sweep(const float* taken, const LookVolume& volume, const LookRay& ray)
+{
+    std::vector<double> depth(voxels_of(volume));
+    along_rays(taken, volume, ray, [&](size_t at, double tau, double, bool) { depth[at] = tau; });
     return depth;
+}
+
+std::vector<double> front(const float* taken, const LookVolume& volume, const LookRay& ray)
+{
+    const double step = ray.slant.z;
+    std::vector<double> behind(voxels_of(volume));
+    double so_far = 0.0;
+    along_rays(taken, volume, ray,
+               [&](size_t at, double tau, double before, bool fresh)
+               {
+                   if (tau <= double(SEEN))
+                       so_far = 0.0;
+                   else if (fresh || before <= double(SEEN))
+                       so_far = step * (tau - double(SEEN)) / (tau - before);
+                   else
+                       so_far += step;
+                   behind[at] = so_far;
+               });
+    return behind;
 }
 
 // In one slice of a sweep: between the rays about a point, of which those that are on their way around count for
@@ -198,17 +227,15 @@ static std::array<double, 16> moments_at(const std::vector<float>& sky, const Lo
     return moments;
 }
 
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine, double out)
+SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec middle, Vec aside)
 {
-    std::array<double, 16> moments = moments_at(sky, coarse, p);
-    const Vec most(moments[4], moments[8], moments[12]);
-    moments = moments_at(sky, coarse, p + most * (out * double(coarse.corner.w) / std::max(glm::length(most), 0.05)));
+    const std::array<double, 16> moments = moments_at(sky, coarse, p);
     SkyLeft left;
     for (size_t c = 0; c < 4; ++c)
     {
-        const double lean = cosine * glm::dot(Vec(moments[4 + c], moments[8 + c], moments[12 + c]), way);
-        left.front[c] = std::clamp(moments[c] + lean, 0.0, 1.0);
-        left.behind[c] = std::clamp(moments[c] - lean, 0.0, 1.0);
+        const Vec lean(moments[4 + c], moments[8 + c], moments[12 + c]);
+        left.front[c] = std::clamp(moments[c] + glm::dot(lean, middle + aside), 0.0, 1.0);
+        left.behind[c] = std::clamp(moments[c] + glm::dot(lean, middle - aside), 0.0, 1.0);
     }
     return left;
 }
@@ -250,6 +277,9 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
                                      f.tilts[0].z, f.tilts[0].w, f.tilts[1].x, f.tilts[1].y};
     const auto vec = [](const in_doubles::Rgb& c) { return Vec(c.r, c.g, c.b); };
 
+    const Vec to_eye = xyz(lit.eye_ray.direction);
+    const Vec seen = p + to_eye * depth_at(lit.eye_depth.data(), lit.volume, lit.eye_ray, in_voxels(p, lit.volume));
+
     Vec sum(0.0);
     for (int i = 0; i < f.suns; ++i)
     {
@@ -258,7 +288,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         const double disc = ray.direction.w;
         const in_doubles::FibreAngles a = in_doubles::fibre_angles(glm::dot(t, l), glm::dot(t, eye), glm::dot(eye, l));
         const double tau = depth_at(lit.depth.data() + size_t(i) * voxels_of(lit.volume), lit.volume, ray,
-                                    in_voxels(p, lit.volume) + double(OUT_TO_SUN) * l);
+                                    in_voxels(seen, lit.volume) + double(OUT_TO_SUN) * l);
         if (level == 1)
         {
             sum += e * std::exp(-tau) * vec(in_doubles::karis(fibre, a, absorbs, f.roughness));
@@ -299,8 +329,9 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         }
     }
     const double along_eye = glm::dot(t, eye);
-    const Vec across = (eye - t * along_eye) / std::sqrt(std::max(1.0 - along_eye * along_eye, 1e-4));
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, p, across, 0.5, double(OUT_TO_SKY));
+    const double v = f.variance, cone = 1.0 / std::tanh(1.0 / v) - v;
+    const SkyLeft left = sky_left(lit.sky, lit.coarse, seen + to_eye * double(SKY_TO_EYE) * double(lit.coarse.corner.w),
+                                  -cone * along_eye * t, cone * 2.0 / kPi * (eye - t * along_eye));
     for (int c = 0; c < 3; ++c)
     {
         const Shares s = shares(c, along_eye);
@@ -341,7 +372,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
             shine[c] += e * surface.normal.w * d * v * f * nl;
         }
     }
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, above, n, 2.0 / 3.0, 0.0);
+    const SkyLeft left = sky_left(lit.sky, lit.coarse, above, Vec(0.0), 2.0 / 3.0 * n);
     for (int c = 0; c < 3; ++c)
         diffuse[c] += xyz(lit.frame.sky)[c] * left.front[size_t(c) + 1];
     return xyz(surface.albedo) * diffuse + shine;

@@ -40,13 +40,15 @@ double depth_at(const float* depth, const LookVolume& volume, const LookRay& ray
 // The same by a march of half a voxel's steps through the trilinear extinction; nothing lies outside.
 double march(const float* extinction, const LookVolume& volume, Vec at, Vec direction);
 
-// What is left of a uniform sky in the two halves about `way`: straight, red, green, blue. `cosine` as
-// kernels/look_rays.h has it.
+// How far each point of a sweep lies behind the place where its ray has come through SEEN, m.
+std::vector<double> front(const float* extinction, const LookVolume& volume, const LookRay& ray);
+
+// What is left of a uniform sky on two sides: straight, red, green, blue. As kernels/look_rays.h has it.
 struct SkyLeft
 {
     std::array<double, 4> front, behind;
 };
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec way, double cosine, double out);
+SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec middle, Vec aside);
 
 // All that the colours of a hair's places hang on besides the strand.
 struct Lit
@@ -55,8 +57,9 @@ struct Lit
     LookFrame frame;
     LookVolume volume, coarse;
     std::vector<LookRay> rays, body_rays; // through the volume, and through the coarse one
-    std::vector<float> depth, body_depth, sky, table;
-    Vec forward;
+    LookRay eye_ray = {};
+    std::vector<float> depth, body_depth, eye_depth, sky, table;
+    Vec forward, from_all_sides; // what is left of light after a crossing
 };
 
 // Radiance of place `k` of a strand, at LEVEL as kernels/look_shade.cl has it.

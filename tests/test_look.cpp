@@ -150,9 +150,15 @@ class Hair
         lit.depth = values<float>("depth", suns * oracle::voxels_of(lit.volume));
         lit.body_rays = values<LookRay>("body_rays", suns);
         lit.body_depth = values<float>("body_depth", suns * oracle::voxels_of(lit.coarse));
+        if (shading.buffers().contains("eye_depth")) // colours have been asked for
+        {
+            lit.eye_ray = values<LookRay>("eye_rays", 1)[0];
+            lit.eye_depth = values<float>("eye_depth", oracle::voxels_of(lit.volume));
+        }
         lit.sky = values<float>("sky", 16 * oracle::voxels_of(lit.coarse));
         lit.table = values<float>("shares", SHARE_ROWS * SHARE_TERMS);
-        lit.forward = xyz(values<float4>("forward", 1)[0]);
+        lit.forward = xyz(values<float4>("forward", 2)[0]);
+        lit.from_all_sides = xyz(values<float4>("forward", 2)[1]);
         return lit;
     }
 
@@ -342,6 +348,42 @@ TEST_F(LookPasses, SweepsAreTheTwins)
     }
 }
 
+// Where the eye's rays have come through SEEN, by hair alone.
+TEST_F(LookPasses, WhatIsSeenLiesInFrontOfWhatIsHidden)
+{
+    hair->bits(LOOK_FAR_FIELD);
+    const oracle::Lit lit = hair->lit();
+    const std::vector<float> fibre = hair->values<float>("fibre", 5 * all);
+    const std::vector<float> taken = hair->values<float>("eye_extinction", all);
+    const Vec l = xyz(lit.eye_ray.direction);
+    EXPECT_GT(glm::dot(l, glm::normalize(Vec(kEye))), 0.99);
+    double worst = 0.0, most = 0.0;
+    for (size_t i = 0; i < all; ++i)
+    {
+        const double amount = double(fibre[3 * all + i]) - double(fibre[4 * all + i]);
+        const oracle::Fibres f = {fibre[i], fibre[all + i], fibre[2 * all + i], amount};
+        const double expected = oracle::extinction(f, l, 1.0);
+        worst = std::max(worst, std::abs(double(taken[i]) - expected));
+        most = std::max(most, expected);
+    }
+    EXPECT_LT(worst, 1e-4 * most); // bodies take a hundred times as much as hair, and are taken away again
+    const std::vector<double> expected = oracle::front(taken.data(), volume, lit.eye_ray);
+    double off = 0.0, deepest = 0.0;
+    int hidden = 0, far_off = 0;
+    for (size_t i = 0; i < all; ++i)
+    {
+        const double apart = std::abs(double(lit.eye_depth[i]) - expected[i]);
+        off += apart;
+        far_off += !(apart < 1e-3 * double(volume.corner.w));
+        hidden += expected[i] > 0.0;
+        deepest = std::max(deepest, expected[i]);
+    }
+    EXPECT_GT(hidden, 300);
+    EXPECT_GT(deepest, 0.05) << "m";
+    EXPECT_LT(off / hidden, 1e-4 * double(volume.corner.w));
+    EXPECT_LE(far_off, hidden / 100); // whether a depth next to SEEN has reached it, a float's rounding decides
+}
+
 // Along the suns' rays, through coarse voxels, bodies alone.
 TEST_F(LookPasses, BodiesShadeApartFromHair)
 {
@@ -437,7 +479,7 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
                         for (size_t of = 0; of < 2; ++of)
                         {
                             const double left =
-                                std::exp(-tau[of] * (c == 0 ? 1.0 : 1.0 - lit.forward[int(c) - 1])) / SKY_RAYS;
+                                std::exp(-tau[of] * (c == 0 ? 1.0 : 1.0 - lit.from_all_sides[int(c) - 1])) / SKY_RAYS;
                             std::array<double, 16>& sums = of == 0 ? twin : marched;
                             sums[c] += left;
                             for (int axis = 0; axis < 3; ++axis)
