@@ -11,6 +11,8 @@ namespace coif
 {
 
 static constexpr double kPi = std::numbers::pi;
+static constexpr size_t kValues = 6; // of Crossed
+static_assert(3 * kValues <= SHARE_TERMS);
 
 double lobe_variance(double roughness)
 {
@@ -53,6 +55,27 @@ static double about_zero(double middle, double scale)
     return share / whole;
 }
 
+double stack_albedo(double forward, double backward, double fibres)
+{
+    // Without a little loss both what comes back of an endless stack and what gets on through it were 1, and their
+    // quotient below nothing by nothing.
+    const double on = std::min(forward, 0.9999 - backward);
+    const double q = 1.0 + backward * backward - on * on;
+    const double endless =
+        2.0 * backward / std::max(q + std::sqrt(std::max(q * q - 4.0 * backward * backward, 0.0)), 1e-9);
+    const double through = std::clamp(on / std::max(1.0 - backward * endless, 1e-9), 1e-6, 0.99999);
+    const double left = std::pow(through, 2.0 * fibres);
+    return std::max(endless * (1.0 - left) / std::max(1.0 - endless * endless * left, 1e-9) - backward, 0.0);
+}
+
+double back_variance(double forward, double backward, double forward_variance, double backward_variance)
+{
+    const double once = std::sqrt(2.0 * forward_variance + backward_variance);
+    const double thrice = std::sqrt(2.0 * forward_variance + 3.0 * backward_variance), b2 = backward * backward;
+    const double width = (1.0 + 0.7 * forward * forward) * (once + b2 * thrice) / (1.0 + b2);
+    return width * width;
+}
+
 Crossed crossed(double absorption, double sine, double roughness, double azimuthal, double ior)
 {
     constexpr int kPlaces = 64;
@@ -82,6 +105,8 @@ Crossed crossed(double absorption, double sine, double roughness, double azimuth
     }
     sum.forward_variance /= std::max(sum.forward, 1e-12);
     sum.backward_variance /= std::max(sum.backward, 1e-12);
+    sum.behind = stack_albedo(sum.forward, sum.backward, double(FIBRES_BEHIND));
+    sum.behind_variance = back_variance(sum.forward, sum.backward, sum.forward_variance, sum.backward_variance);
     return sum;
 }
 
@@ -130,7 +155,7 @@ std::vector<float> share_table(double roughness, double azimuthal, double ior)
     std::vector<float> table;
     for (int row = 0; row < SHARE_ROWS; ++row)
     {
-        std::vector<double> cosines, values[4];
+        std::vector<double> cosines, values[kValues];
         for (int k = 0; k < kSines; ++k)
         {
             const double sine = std::sin(0.5 * kPi * (k + 0.5) / kSines);
@@ -140,10 +165,13 @@ std::vector<float> share_table(double roughness, double azimuthal, double ior)
             values[1].push_back(c.backward);
             values[2].push_back(c.forward_variance);
             values[3].push_back(c.backward_variance);
+            values[4].push_back(c.behind);
+            values[5].push_back(c.behind_variance);
         }
         for (const std::vector<double>& value : values)
             for (const double term : fitted(cosines, value))
                 table.push_back(float(term));
+        table.resize(size_t(row + 1) * SHARE_TERMS);
     }
     return table;
 }
@@ -155,8 +183,8 @@ Crossed from_table(const std::vector<float>& table, double absorption, double si
     const double at = std::min(r / (1.0 + r) * (SHARE_ROWS - 1), SHARE_ROWS - 1 - 1e-3);
     const size_t below = size_t(at);
     const double on = at - double(below);
-    double values[4];
-    for (size_t v = 0; v < 4; ++v)
+    double values[kValues];
+    for (size_t v = 0; v < kValues; ++v)
     {
         double sum = 0.0;
         for (size_t i = 0; i < 3; ++i)
@@ -164,7 +192,7 @@ Crossed from_table(const std::vector<float>& table, double absorption, double si
                                          double(table[(below + 1) * SHARE_TERMS + 3 * v + i]), on);
         values[v] = std::clamp(sum, 1e-5, 1.0);
     }
-    return {values[0], values[1], values[2], values[3]};
+    return {values[0], values[1], values[2], values[3], values[4], values[5]};
 }
 
 } // namespace coif

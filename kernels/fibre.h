@@ -290,25 +290,4 @@ CURVE_FUNCTION REAL back_albedo(REAL forward, REAL backward)
     return max(2.0f * backward / max(q + root, 1e-6f) - backward, 0.0f);
 }
 
-// The same of a stack that ends after so many fibres, that one among them, before something dark (Stokes 1862 again):
-// an endless stack of white hair throws all light back, a thin one lets much through.
-CURVE_FUNCTION REAL stack_albedo(REAL forward, REAL backward, float fibres)
-{
-    // Without a little loss both what comes back of the endless stack and what gets on through it were 1, and their
-    // quotient below nothing by nothing.
-    REAL on = min(forward, 0.9999f - backward);
-    REAL endless = back_albedo(on, backward) + backward;
-    REAL through = clamp(on / max(1.0f - backward * endless, 1e-6f), 1e-4f, 0.99999f);
-    REAL left = exp(2.0f * fibres * log(through));
-    return max(endless * (1.0f - left) / max(1.0f - endless * endless * left, 1e-6f) - backward, 0.0f);
-}
-
-// Variance of what they throw back (Zinke 2008, eq. 16 and 17, with units that fit), from those of one crossing.
-CURVE_FUNCTION REAL back_variance(REAL forward, REAL backward, REAL forward_v, REAL backward_v)
-{
-    REAL once = sqrt(2.0f * forward_v + backward_v), thrice = sqrt(2.0f * forward_v + 3.0f * backward_v);
-    REAL b2 = backward * backward;
-    return squared((1.0f + 0.7f * forward * forward) * (once + b2 * thrice) / (1.0f + b2));
-}
-
 #endif

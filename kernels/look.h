@@ -30,7 +30,7 @@
 #define SKY_TO_EYE 0.3f
 #define FIBRES_BEHIND 7.0f
 
-#define SHARE_TERMS 12 // floats a row of the table of shares: look_shade.cl
+#define SHARE_TERMS 20 // floats a row of the table of shares: look_shade.cl
 #define SHARE_ROWS 32
 
 #ifdef __cplusplus

@@ -18,22 +18,36 @@
 #define SELECT(no, yes, test) select(no, yes, test)
 #include "fibre.h"
 
-// Rows of `shares` hold, for each of four values, the coefficients of 1, (1 - cos theta)^2 and (1 - cos theta)^5: what
-// one crossing sends forward and backward, and the variances of either. Rows are even in sqrt(absorption) /
-// (1 + sqrt(absorption)). app/fibre_shares.h
+// Rows of `shares` hold, for each of six values, the coefficients of 1, (1 - cos theta)^2 and (1 - cos theta)^5: what
+// one crossing sends forward and backward, the variances of either, what the fibres behind throw back and its variance.
+// Rows are even in sqrt(absorption) / (1 + sqrt(absorption)). app/fibre_shares.h
+enum
+{
+    FORWARD,
+    BACKWARD,
+    FORWARD_VARIANCE,
+    BACKWARD_VARIANCE,
+    BEHIND,
+    BEHIND_VARIANCE
+};
+
 typedef struct ShareRow
 {
-    float of[SHARE_TERMS];
+    float16 most;
+    float4 rest;
 } ShareRow;
 
-static inline void find_row(global const float* shares, float absorption, ShareRow* row)
+static inline ShareRow find_row(global const float* shares, float absorption)
 {
     const float r = sqrt(fmax(absorption, 0.0f));
     const float at = fmin(r / (1.0f + r) * (float)(SHARE_ROWS - 1), (float)(SHARE_ROWS - 1) - 1e-3f);
     const int below = (int)at;
     const float on = at - (float)below;
-    for (int i = 0; i < SHARE_TERMS; ++i)
-        row->of[i] = mix(shares[below * SHARE_TERMS + i], shares[(below + 1) * SHARE_TERMS + i], on);
+    global const float* row = shares + below * SHARE_TERMS;
+    ShareRow found;
+    found.most = mix(vload16(0, row), vload16(0, row + SHARE_TERMS), on);
+    found.rest = mix(vload4(0, row + 16), vload4(0, row + SHARE_TERMS + 16), on);
+    return found;
 }
 
 // Rows for the root, the middle and the tip, as a parabola in the share of the tip's colour.
@@ -44,16 +58,13 @@ typedef struct ShareCurve
 
 static inline void find_curve(global const float* shares, float root, float middle, float tip, ShareCurve* curve)
 {
-    ShareRow rows[3];
-    find_row(shares, root, &rows[0]);
-    find_row(shares, middle, &rows[1]);
-    find_row(shares, tip, &rows[2]);
-    for (int i = 0; i < SHARE_TERMS; ++i)
-    {
-        curve->begin[i] = rows[0].of[i];
-        curve->slope[i] = -3.0f * rows[0].of[i] + 4.0f * rows[1].of[i] - rows[2].of[i];
-        curve->bend[i] = 2.0f * (rows[0].of[i] - 2.0f * rows[1].of[i] + rows[2].of[i]);
-    }
+    const ShareRow a = find_row(shares, root), b = find_row(shares, middle), c = find_row(shares, tip);
+    vstore16(a.most, 0, curve->begin);
+    vstore4(a.rest, 0, curve->begin + 16);
+    vstore16(4.0f * b.most - 3.0f * a.most - c.most, 0, curve->slope);
+    vstore4(4.0f * b.rest - 3.0f * a.rest - c.rest, 0, curve->slope + 16);
+    vstore16(2.0f * (a.most - 2.0f * b.most + c.most), 0, curve->bend);
+    vstore4(2.0f * (a.rest - 2.0f * b.rest + c.rest), 0, curve->bend + 16);
 }
 
 typedef struct Inclined
@@ -85,9 +96,10 @@ typedef struct Crossing
 static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined at)
 {
     Crossing c;
-    c.forward = rgb(share_at(&curves[0], 0, tip, at), share_at(&curves[1], 0, tip, at), share_at(&curves[2], 0, tip, at));
-    c.backward =
-        rgb(share_at(&curves[0], 1, tip, at), share_at(&curves[1], 1, tip, at), share_at(&curves[2], 1, tip, at));
+    c.forward = rgb(share_at(&curves[0], FORWARD, tip, at), share_at(&curves[1], FORWARD, tip, at),
+                    share_at(&curves[2], FORWARD, tip, at));
+    c.backward = rgb(share_at(&curves[0], BACKWARD, tip, at), share_at(&curves[1], BACKWARD, tip, at),
+                     share_at(&curves[2], BACKWARD, tip, at));
     return c;
 }
 
@@ -189,23 +201,23 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
 #endif
 #if LEVEL == 3
             const Inclined at = inclined(a.ci);
-            const Crossing c = crossing_at(curves, tip, at);
-            const real forward_v = share_at(&curves[1], 2, tip, at), backward_v = share_at(&curves[1], 3, tip, at);
-            const real further = forward_v * fibres_crossed(c.forward.g, tau) + l.w;
-            const real back_v = back_variance(c.forward.g, c.backward.g, forward_v, backward_v);
+            const Rgb on = rgb(share_at(&curves[0], FORWARD, tip, at), share_at(&curves[1], FORWARD, tip, at),
+                               share_at(&curves[2], FORWARD, tip, at));
+            const Rgb behind = rgb(share_at(&curves[0], BEHIND, tip, at), share_at(&curves[1], BEHIND, tip, at),
+                                   share_at(&curves[2], BEHIND, tip, at));
+            // All channels are as wide as green.
+            const real further = share_at(&curves[1], FORWARD_VARIANCE, tip, at) * fibres_crossed(on.g, tau) + l.w;
+            const real back_v = share_at(&curves[1], BEHIND_VARIANCE, tip, at);
             const real facing = 0.5f * fmax(a.cos_phi, (real)(0.0f));
             const real back = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + l.w);
             const real back_further = facing * longitudinal(a.si, a.ci, a.so, a.co, back_v + further);
             const Rgb g = far_field(fibre, a, lobe_heights(fibre, a, further), absorb, 2, true);
-            const Rgb behind = rgb(stack_albedo(c.forward.r, c.backward.r, FIBRES_BEHIND),
-                                   stack_albedo(c.forward.g, c.backward.g, FIBRES_BEHIND),
-                                   stack_albedo(c.forward.b, c.backward.b, FIBRES_BEHIND));
             sum.r += e.x * (straight * (f.r + behind.r * back) +
-                            open * forwarded(c.forward.r, tau) * (g.r + behind.r * back_further));
+                            open * forwarded(on.r, tau) * (g.r + behind.r * back_further));
             sum.g += e.y * (straight * (f.g + behind.g * back) +
-                            open * forwarded(c.forward.g, tau) * (g.g + behind.g * back_further));
+                            open * forwarded(on.g, tau) * (g.g + behind.g * back_further));
             sum.b += e.z * (straight * (f.b + behind.b * back) +
-                            open * forwarded(c.forward.b, tau) * (g.b + behind.b * back_further));
+                            open * forwarded(on.b, tau) * (g.b + behind.b * back_further));
 #else
             sum.r += e.x * straight * f.r;
             sum.g += e.y * straight * f.g;

@@ -303,22 +303,17 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         }
         // The spread is that of green.
         const Shares green = shares(1, a.si);
-        const double forward_v = green.of(&Crossed::forward_variance), back_v = green.of(&Crossed::backward_variance);
+        const double forward_v = green.of(&Crossed::forward_variance);
         const double met = green.of(&Crossed::forward) * tau, crossings = met > 1e-9 ? met / -std::expm1(-met) : 1.0;
         const double further = forward_v * crossings + disc;
         const Vec around =
             vec(in_doubles::far_field(fibre, a, in_doubles::lobe_heights(fibre, a, further), absorbs, 2, true));
-        const double f2 = std::pow(green.of(&Crossed::forward), 2), b2 = std::pow(green.of(&Crossed::backward), 2);
-        const double thrown_v =
-            std::pow((1 + 0.7 * f2) * (std::sqrt(2 * forward_v + back_v) + b2 * std::sqrt(2 * forward_v + 3 * back_v)) /
-                         (1 + b2),
-                     2);
+        const double thrown_v = green.of(&Crossed::behind_variance);
         const double facing = 0.5 * std::max(0.0, a.cos_phi);
         for (int c = 0; c < 3; ++c)
         {
             const Shares s = shares(c, a.si);
-            const double forward = s.of(&Crossed::forward), backward = s.of(&Crossed::backward);
-            const double behind = in_doubles::stack_albedo(forward, backward, FIBRES_BEHIND);
+            const double forward = s.of(&Crossed::forward), behind = s.of(&Crossed::behind);
             const double handed = std::exp((forward - 1) * tau) - std::exp(-tau);
             sum[c] +=
                 e[c] *
