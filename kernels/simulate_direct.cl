@@ -68,7 +68,7 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                             global const int* held_nodes,
 #endif
                             global const float* root_normal, global const float* bend_factor,
-                            global const float* gradient, global int* density,
+                            global const float* gradient, global int* density, global int* touched,
                             global float* moved, global int* resets, global int* faults,
                             global const float* body_distance, constant Capsule* bodies, constant StepPath* path,
                             constant HairParams* params, constant StepInfo* info)
@@ -304,6 +304,6 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 
 #ifdef DENSITY
     if (info->last_substep)
-        add_strands_density(density, position, strand, info);
+        add_strands_density(density, touched, position, strand, info);
 #endif
 }

@@ -8,20 +8,36 @@
 
 // The density of CHUNK neighbours along u, from column `u` on, around the ring; beyond the last row or column there is
 // no hair. `forward` reads the next column instead, without going around.
-static inline chunk_real row_of(global const int* slice, int u, int v, int su, int sv, int forward)
+static inline chunk_real row_of(global const int* occupied, int slice, int u, int v, int su, int sv, int forward)
 {
     if (v >= RESOLUTION)
         return (chunk_real)(0.0f);
-    global const int* row = slice + v * sv;
+    const int row = slice + v * sv, at = row + u + forward;
     if (su == 1 && u + CHUNK < RESOLUTION)
-        return CHUNK_TO_REAL(CHUNK_LOAD(row + u + forward));
+        return CHUNK_TO_REAL(CHUNK_LOAD(occupied + at));
+    const int all = RESOLUTION * RESOLUTION * RESOLUTION;
+    if (su == 1 && at >= RESOLUTION && at + CHUNK <= all)
+    {
+        // Before the ring's seam and behind it; what else is read belongs to other rows.
+        const chunk column = u + CHUNK_LANES;
+        const chunk values = select(CHUNK_LOAD(occupied + at - RESOLUTION), CHUNK_LOAD(occupied + at),
+                                    column < RESOLUTION);
+        return CHUNK_TO_REAL(select(values, (chunk)(0), column + forward == RESOLUTION & column < RESOLUTION));
+    }
     int values[CHUNK];
     for (int lane = 0; lane < CHUNK; ++lane)
     {
         const int column = (u + lane < RESOLUTION ? u + lane : u + lane - RESOLUTION) + forward;
-        values[lane] = column < RESOLUTION ? row[column * su] : 0;
+        values[lane] = column < RESOLUTION ? occupied[row + column * su] : 0;
     }
     return CHUNK_TO_REAL(CHUNK_LOAD(values));
+}
+
+// Columns from `u` on, around the ring.
+static inline chunk columns_from(int u)
+{
+    const chunk column = u + CHUNK_LANES;
+    return select(column - RESOLUTION, column, column < RESOLUTION);
 }
 
 kernel void transmittance(global const int* occupied, global float* depth, constant StepInfo* info)
@@ -38,7 +54,7 @@ kernel void transmittance(global const int* occupied, global float* depth, const
     int last_u = i, last_v = j;
     for (int passed = 0; passed < RESOLUTION; ++passed)
     {
-        global const int* slice = occupied + (info->sweep_from + info->sweep_sign * passed) * ss;
+        const int slice = (info->sweep_from + info->sweep_sign * passed) * ss;
         const float shift_u = info->sweep.x * (float)passed, shift_v = info->sweep.y * (float)passed;
         const int whole_u = convert_int_rtn(shift_u), whole_v = convert_int_rtn(shift_v);
         const float fu = shift_u - (float)whole_u, fv = shift_v - (float)whole_v;
@@ -49,21 +65,17 @@ kernel void transmittance(global const int* occupied, global float* depth, const
         if (abs(v - last_v) > 1)
             tau = before = (chunk_real)(0.0f);
         if (u != last_u)
-            for (int lane = 0; lane < CHUNK; ++lane)
-            {
-                const int now = (u + lane) % RESOLUTION, then = (last_u + lane) % RESOLUTION;
-                if (abs(now - then) > 1)
-                {
-                    CHUNK_LANE(tau, lane) = 0.0f;
-                    CHUNK_LANE(before, lane) = 0.0f;
-                }
-            }
+        {
+            const chunk carried = abs_diff(columns_from(u), columns_from(last_u)) <= (chunk_bits)(1);
+            tau = select((chunk_real)(0.0f), tau, carried);
+            before = select((chunk_real)(0.0f), before, carried);
+        }
         last_u = u;
         last_v = v;
 
         const chunk_real here =
-            (1.0f - fv) * ((1.0f - fu) * row_of(slice, u, v, su, sv, 0) + fu * row_of(slice, u, v, su, sv, 1)) +
-            fv * ((1.0f - fu) * row_of(slice, u, v + 1, su, sv, 0) + fu * row_of(slice, u, v + 1, su, sv, 1));
+            (1.0f - fv) * ((1.0f - fu) * row_of(occupied, slice, u, v, su, sv, 0) + fu * row_of(occupied, slice, u, v, su, sv, 1)) +
+            fv * ((1.0f - fu) * row_of(occupied, slice, u, v + 1, su, sv, 0) + fu * row_of(occupied, slice, u, v + 1, su, sv, 1));
         tau += 0.5f * (before + here) * (info->sweep.z * info->sweep.w);
         before = here;
         CHUNK_STORE_REAL(tau, depth + (passed * RESOLUTION + j) * RESOLUTION + i);

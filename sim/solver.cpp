@@ -49,15 +49,17 @@ void Solver::set_params(const HairParams& params)
     {
         const size_t voxels = grid_voxels(wanted);
         Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
-        for (const char* name : {"density", "blurred", "lit", "occupied", "depth"})
+        for (const char* name : {"density", "blurred", "lit", "in_head", "occupied", "depth"})
             fresh[name] = allocate(device_, voxels * sizeof(int), "the density grid");
         fresh["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
-        for (const char* name : {"density", "blurred", "depth"})
-            device_.queue.enqueueFillBuffer(fresh[name], 0, 0, voxels * sizeof(int));
-        device_.queue.enqueueFillBuffer(fresh["gradient"], 0, 0, voxels * 3 * sizeof(float));
+        for (const char* name : {"touched", "touched_before", "room"})
+            fresh[name] = allocate(device_, 6 * sizeof(int), "the density grid");
+        device_.queue.enqueueFillBuffer(fresh["depth"], 0, 0, voxels * sizeof(int));
         buffers_ = fresh;
     }
     // What the rest shape hangs on besides the groom.
+        grid_is_fresh_ = true;
+        stood_.reset();
     const auto shaping = [](const HairParams& p)
     {
         return std::tuple(p.strand_spacing, p.bending_droop, p.bending_modulus, p.bending_diameter,
@@ -182,6 +184,7 @@ void Solver::set_body(const PlacedGrid& body)
     }
     body_ = body;
 }
+        stood_.reset();
 
 void Solver::reset(const Pose& head)
 {

@@ -28,6 +28,14 @@ struct Moment
 // In a straight line from one to the other, a share of the way; where the head leaps between them, the nearer one.
 Moment between(const Moment& a, const Moment& b, double share);
 
+// What the passes over the grid do: where it changes, what other ones left there must go.
+struct GridUse
+{
+    bool repels, shades;
+    float4 light_box, push_box;
+    bool operator==(const GridUse&) const = default;
+};
+
 // Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
 // positions back; nothing in between touches the host. Throws Error for what the device refuses; where that is memory,
 // all stays as it was.
@@ -92,11 +100,16 @@ class Solver
   private:
     const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
     Kernel& kernel(const std::string& file, const std::string& extra);
-    void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
+    void launch(const std::string& pass, const std::string& extra, const cl::NDRange& items,
+                const cl::NDRange& group = cl::NullRange);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
     void set_rest_shape();
     bool stands_rigid(const StepInfo& info);
     void look_for_rest();
+    void launch_grid(const std::string& pass, const std::string& extra = {});
+    void empty_grid();
+    void blur();
+    void stand_head();
     void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
     void simulate_direct(const StepInfo& info);
@@ -125,6 +138,9 @@ class Solver
     std::map<std::string, Kernel> kernels_; // by file and options
     // What the queue still reads from, and its launches: kept until the host next waits.
     std::vector<std::vector<char>> in_flight_;
+    bool grid_is_fresh_ = true;       // its buffers hold anything
+    std::optional<GridUse> grid_use_; // of the last step
+    std::optional<StepInfo> stood_;   // what the head stood in the grid by
     std::vector<std::pair<std::string, cl::Event>> launches_;
     PassTimes times_;
 };
