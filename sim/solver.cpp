@@ -1,6 +1,8 @@
 // What the device holds, put there and looked at; sim/solver_step.cpp sets it in motion.
 #include "sim/solver.h"
 
+#include "kernels/sleep.h"
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
@@ -56,10 +58,10 @@ void Solver::set_params(const HairParams& params)
             fresh[name] = allocate(device_, 6 * sizeof(int), "the density grid");
         device_.queue.enqueueFillBuffer(fresh["depth"], 0, 0, voxels * sizeof(int));
         buffers_ = fresh;
-    }
-    // What the rest shape hangs on besides the groom.
         grid_is_fresh_ = true;
         stood_.reset();
+    }
+    // What the rest shape hangs on besides the groom.
     const auto shaping = [](const HairParams& p)
     {
         return std::tuple(p.strand_spacing, p.bending_droop, p.bending_modulus, p.bending_diameter,
@@ -91,7 +93,9 @@ void Solver::set_groom(const Groom& groom)
             fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
         for (const char* name : {"pace", "pace_next"})
             fresh[name] = allocate(device_, blocks * sizeof(int), "the guides");
-        fresh["moved"] = allocate(device_, strands * sizeof(float), "the guides");
+        for (const char* name : {"moved", "still", "still_next"})
+            fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
+        fresh["pushed"] = allocate(device_, strands * 3 * sizeof(float), "the guides");
         device_.queue.enqueueFillBuffer(fresh["moved"], 0.0f, 0, strands * sizeof(float));
         fresh["faults"] = allocate(device_, strands * sizeof(int), "the guides");
         device_.queue.enqueueFillBuffer(fresh["faults"], 0, 0, strands * sizeof(int));
@@ -180,11 +184,11 @@ void Solver::set_body(const PlacedGrid& body)
     if (body != body_)
     {
         changed_ = true;
+        stood_.reset();
         rest_clear_.reset();
     }
     body_ = body;
 }
-        stood_.reset();
 
 void Solver::reset(const Pose& head)
 {
@@ -236,6 +240,16 @@ std::vector<float> Solver::multipliers() const
 }
 std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
+int Solver::blocks_awake() const
+{
+    if (asleep_ || params_.solver_kind != 0)
+        return asleep_ ? 0 : groom_.blocks;
+    const std::vector<float> still = read<float>(device_, buffer("still"), size_t(groom_.blocks) * LANES);
+    int awake = 0;
+    for (auto block = still.begin(); block != still.end(); block += LANES)
+        awake += *std::min_element(block, block + LANES) < SLEEP_AFTER;
+    return awake;
+}
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
 
 } // namespace coif

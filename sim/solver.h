@@ -66,6 +66,9 @@ class Solver
     // Hair that has come to rest on a head at rest in still air sleeps: steps and draws cost nothing until something
     // changes.
     bool asleep() const { return asleep_; }
+    // So do blocks of 16 strands alone, where they may: those of the direct solver that have come to rest.
+    void let_blocks_sleep(bool may) { blocks_may_sleep_ = may; }
+    int blocks_awake() const;                   // waits for the device
     long drawings() const { return drawings_; } // that draw() has made anew
     void keep_awake() { changed_ = true; }      // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
@@ -103,13 +106,13 @@ class Solver
     void launch(const std::string& pass, const std::string& extra, const cl::NDRange& items,
                 const cl::NDRange& group = cl::NullRange);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
-    void set_rest_shape();
-    bool stands_rigid(const StepInfo& info);
-    void look_for_rest();
     void launch_grid(const std::string& pass, const std::string& extra = {});
     void empty_grid();
     void blur();
     void stand_head();
+    void set_rest_shape();
+    bool stands_rigid(const StepInfo& info);
+    void look_for_rest();
     void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
     void simulate_direct(const StepInfo& info);
@@ -124,6 +127,7 @@ class Solver
     std::optional<bool> rest_clear_; // of the bodies, none of which moves against the head; none: not looked at yet
     bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
+    bool blocks_may_sleep_ = false;
     long drawings_ = 0;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in
     double watched_ = 0.0; // s that `moved` is the greatest of
@@ -134,13 +138,13 @@ class Solver
     std::vector<Collider> colliders_;
     PlacedGrid body_;
     StepInfo info_ = {};
+    bool grid_is_fresh_ = true;       // its buffers hold anything
+    std::optional<GridUse> grid_use_; // of the last step
+    std::optional<StepInfo> stood_;   // what the head stood in the grid by
     Buffers buffers_;
     std::map<std::string, Kernel> kernels_; // by file and options
     // What the queue still reads from, and its launches: kept until the host next waits.
     std::vector<std::vector<char>> in_flight_;
-    bool grid_is_fresh_ = true;       // its buffers hold anything
-    std::optional<GridUse> grid_use_; // of the last step
-    std::optional<StepInfo> stood_;   // what the head stood in the grid by
     std::vector<std::pair<std::string, cl::Event>> launches_;
     PassTimes times_;
 };

@@ -202,6 +202,7 @@ void Solver::simulate_direct(const StepInfo& info)
                    size_t(groom_.blocks) * LANES);
     std::swap(buffers_["tension"], buffers_["tension_next"]);
     std::swap(buffers_["pace"], buffers_["pace_next"]);
+    std::swap(buffers_["still"], buffers_["still_next"]);
 }
 
 double Solver::fastest()
@@ -237,6 +238,8 @@ void Solver::step(const std::vector<Substep>& wanted)
     drawn_asleep_ &= asleep_;
     if (asleep_)
         return;
+    if ((outside || !blocks_may_sleep_) && params_.solver_kind == 0) // all blocks are awake
+        device_.queue.enqueueFillBuffer(buffer("still"), 0.0f, 0, size_t(groom_.blocks) * LANES * sizeof(float));
     for (size_t i = 0; i < substeps.size(); ++i)
     {
         const Substep& now = substeps[i];

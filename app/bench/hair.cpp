@@ -26,6 +26,15 @@ BenchHair::BenchHair(const Device& device, const std::string& preset, const std:
     solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));
 }
 
+static PassTimes per_frame(PassTimes times, std::chrono::steady_clock::time_point begin, int count)
+{
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
+    for (auto& [pass, ms] : times)
+        ms /= count;
+    times.insert(times.begin(), {"frame", passed.count() / count});
+    return times;
+}
+
 PassTimes BenchHair::frames(int count, bool drawn)
 {
     solver_->take_times();
@@ -41,12 +50,21 @@ PassTimes BenchHair::frames(int count, bool drawn)
         if (drawn)
             solver_->draw();
     }
-    PassTimes times = solver_->take_times(); // waits
-    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
-    for (auto& [pass, ms] : times)
-        ms /= count;
-    times.insert(times.begin(), {"frame", passed.count() / count});
-    return times;
+    return per_frame(solver_->take_times(), begin, count); // waits
+}
+
+PassTimes BenchHair::rest(double seconds)
+{
+    solver_->take_times();
+    const auto begin = std::chrono::steady_clock::now();
+    const int count = int(std::lround(60.0 * seconds));
+    solver_->let_blocks_sleep(true);
+    for (int i = 0; i < count; ++i)
+    {
+        time_ += 1.0 / 60.0;
+        solver_->step({{solver_->head(), time_, 1.0f / 60.0f}});
+    }
+    return per_frame(solver_->take_times(), begin, count);
 }
 
 // How much of the grid its passes see to: kernels/grid_room.cl.
