@@ -41,7 +41,9 @@ static inline void store_voxels(whole values, int begin, int bx, int by, int bz,
     }
 }
 
-kernel void stand_head(global int* in_head, global const float* body_distance, constant StepInfo* info)
+// `head_touched`: the least x, y and z of all voxels that may hold some of the head, and the least of their negatives.
+kernel void stand_head(global int* in_head, global int* head_touched, global const float* body_distance,
+                       constant StepInfo* info)
 {
     const int first = (int)get_global_id(0) * WIDTH, by = get_global_id(1), bz = get_global_id(2);
     const float opaque = (float)info->body_density;
@@ -57,10 +59,16 @@ kernel void stand_head(global int* in_head, global const float* body_distance, c
     const float unevenness = 1.733f * info->body_corner.w / info->grid_corner.w;
     const float most = fmin(1.733f * TO_EDGE, TO_EDGE + unevenness);
 
+    int left = BRICKS, right = -1; // bricks that may hold some
     for (int brick = 0; brick < WIDTH && first + brick < BRICKS; ++brick)
     {
         const float middle = depth[brick];
         const int through = fabs(middle - 0.5f) < most + 0.5f;
+        if (through || middle > 0.0f)
+        {
+            left = min(left, first + brick);
+            right = first + brick;
+        }
         for (int begin = 0; begin < BRICK_VOXELS; begin += WIDTH)
         {
             real share = (real)(middle > 0.0f ? opaque : 0.0f);
@@ -80,4 +88,13 @@ kernel void stand_head(global int* in_head, global const float* body_distance, c
             store_voxels(TO_WHOLE(share), begin, first + brick, by, bz, in_head);
         }
     }
+    if (right < 0)
+        return;
+    const int last = RESOLUTION - 1, beyond = BRICK - 1;
+    atomic_min(&head_touched[0], BRICK * left);
+    atomic_min(&head_touched[1], BRICK * by);
+    atomic_min(&head_touched[2], BRICK * bz);
+    atomic_min(&head_touched[3], -min(last, BRICK * right + beyond));
+    atomic_min(&head_touched[4], -min(last, BRICK * by + beyond));
+    atomic_min(&head_touched[5], -min(last, BRICK * bz + beyond));
 }

@@ -47,18 +47,21 @@ Solver::~Solver()
 void Solver::set_params(const HairParams& params)
 {
     const HairParams wanted = device_params(params);
-    if (!buffers_.contains("density") || wanted.grid_resolution != params_.grid_resolution)
+    const bool other_grid = !buffers_.contains("density") || wanted.grid_resolution != params_.grid_resolution;
+    if (other_grid)
     {
         const size_t voxels = grid_voxels(wanted);
         Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
         for (const char* name : {"density", "blurred", "lit", "in_head", "occupied", "depth"})
             fresh[name] = allocate(device_, voxels * sizeof(int), "the density grid");
         fresh["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
-        for (const char* name : {"touched", "touched_before", "room"})
+        for (const char* name : {"touched", "touched_before", "room", "head_touched"})
             fresh[name] = allocate(device_, 6 * sizeof(int), "the density grid");
-        device_.queue.enqueueFillBuffer(fresh["depth"], 0, 0, voxels * sizeof(int));
+        fresh["light_room"] = allocate(device_, 12 * sizeof(int), "the density grid");
+        device_.queue.enqueueFillBuffer(fresh["light_room"], 0, 0, 12 * sizeof(int));
+        for (const char* name : {"occupied", "depth"})
+            device_.queue.enqueueFillBuffer(fresh[name], 0, 0, voxels * sizeof(int));
         buffers_ = fresh;
-        grid_is_fresh_ = true;
         stood_.reset();
     }
     // What the rest shape hangs on besides the groom.
@@ -70,6 +73,8 @@ void Solver::set_params(const HairParams& params)
     const bool reshaped = shaping(wanted) != shaping(params_);
     changed_ |= memcmp(&wanted, &params_, sizeof wanted) != 0;
     params_ = wanted;
+    if (other_grid)
+        empty_grid();
     if (reshaped)
         set_rest_shape();
     device_.queue.enqueueWriteBuffer(buffer("params"), CL_TRUE, 0, sizeof params_, &params_);

@@ -319,6 +319,7 @@ void Solver::stand_head()
     };
     if (stood_ && placed(*stood_) == placed(info_))
         return;
+    device_.queue.enqueueFillBuffer(buffer("head_touched"), params_.grid_resolution, 0, 6 * sizeof(int)); // none
     const size_t bricks = (size_t(params_.grid_resolution) + 3) / 4, width = size_t(device_.width);
     launch("stand_head", "", cl::NDRange((bricks + width - 1) / width, bricks, bricks),
            device_.is_gpu ? cl::NullRange : cl::NDRange(1, bricks, 1));
@@ -346,10 +347,10 @@ void Solver::draw()
         const size_t side = size_t(params_.grid_resolution);
         const size_t chunks = side / size_t(chunk(device_, params_));
         if (body_.grid)
-        {
             stand_head();
+        launch("light_room", body_.grid ? "-D BODY_GRID" : "", cl::NDRange(1), cl::NDRange(1));
+        if (body_.grid)
             launch_grid("add_head");
-        }
         else
             device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
                                             grid_voxels(params_) * sizeof(int));

@@ -137,6 +137,17 @@ TEST_P(GridSteps, LeaveWhatAllOfTheGridDoneAnewWouldHold)
     expect_as_from_scratch(solver, false, "reset");
 }
 
+TEST_P(GridSteps, BeforeTheFirstStepThereIsNoHairInTheLight)
+{
+    HairParams params;
+    params.grid_resolution = kSide;
+    params.look_self_shadow = 1.0f;
+    Solver solver(device, params, random_groom(random, 20, 8, 40), Pose{});
+    solver.draw();
+    for (const char* name : {"density", "occupied", "depth"})
+        EXPECT_EQ(grid_of(solver, name), std::vector<int>(kSide * kSide * kSide, 0)) << name;
+}
+
 // Kept as long as neither it nor the grid turns; light, that is how much of it stops light, changes it too.
 TEST_P(GridSteps, TheHeadIsStoodInTheGridOnlyWhereItChanges)
 {
@@ -162,6 +173,12 @@ TEST_P(GridSteps, TheHeadIsStoodInTheGridOnlyWhereItChanges)
         fresh.step({{head, time, 1.0f / 60.0f}});
         fresh.draw();
         EXPECT_EQ(grid_of(solver, "in_head"), grid_of(fresh, "in_head"));
+        // And what light meets is all of that, and of the hair, and nothing else.
+        const std::vector<int> density = grid_of(solver, "density"), in_head = grid_of(solver, "in_head");
+        std::vector<int> both;
+        for (size_t i = 0; i < density.size(); ++i)
+            both.push_back(std::max(density[i], in_head[i]));
+        EXPECT_EQ(grid_of(solver, "occupied"), both);
         return passes;
     };
     EXPECT_EQ(stood(), 1);

@@ -219,11 +219,15 @@ TEST_P(GridPasses, TheHeadFillsTheVoxelsWhoseCentresLieInsideWithSoftEdges)
     const PlacedGrid placed = {lumpy_body(), 1.5f, {0.0f, 0.03f, 0.0f}};
     info = make_step_info(params, groom, now.head, glm::dvec3(0.0), now, 0, true, placed);
     const oracle::Body body = oracle::body_of(*placed.grid);
+    std::vector<int> all_twice = rooms()[0];
+    all_twice.insert(all_twice.end(), all_twice.begin(), all_twice.end());
     const std::vector<int> density = random_density(100);
     const Buffers buffers = {{"density", filled(device, density)},
                              {"in_head", filled(device, std::vector<int>(voxels, -1))},
                              {"occupied", filled(device, std::vector<int>(voxels, -1))},
                              {"body_distance", filled(device, body.distance)},
+                             {"head_touched", filled(device, std::vector<int>(6, resolution))},
+                             {"light_room", filled(device, all_twice)},
                              {"info", filled(device, info)}};
     const size_t bricks = (size_t(resolution) + 3) / 4, width = size_t(device.width);
     launch("stand_head", buffers, cl::NDRange((bricks + width - 1) / width, bricks, bricks));
@@ -241,6 +245,43 @@ TEST_P(GridPasses, TheHeadFillsTheVoxelsWhoseCentresLieInsideWithSoftEdges)
     }
     EXPECT_LE(worst, 1.0 + 3e-5 * info.body_density);
     EXPECT_EQ(inside > 0, resolution > 8); // voxels of 10 cm are too large for it
+    // In the box that it is said to lie in, give or take a brick.
+    const std::vector<int> touched = read<int>(device, buffers.at("head_touched"), 6);
+    const auto [low, high] = oracle::box_of(read<int>(device, buffers.at("in_head"), voxels), resolution);
+    for (int axis = 0; axis < 3 && inside > 0; ++axis)
+    {
+        EXPECT_LE(touched[size_t(axis)], low[axis]);
+        EXPECT_GE(touched[size_t(axis)], low[axis] - 8);
+        EXPECT_GE(-touched[size_t(axis + 3)], high[axis]);
+        EXPECT_LE(-touched[size_t(axis + 3)], high[axis] + 8);
+    }
+}
+
+TEST_P(GridPasses, LightMayBeStoppedWhereHairOrHeadAreAndEverywhereByOtherBodies)
+{
+    StepInfo info = {};
+    const int n = resolution, r = resolution;
+    struct LightCase
+    {
+        std::vector<int> head, before;
+        int colliders;
+        std::vector<int> light_room;
+    };
+    for (const LightCase& c :
+         {LightCase{{n, n, n, n, n, n}, {0, 0, 0, 0, 0, 0}, 0, {2, 3, 4, 5, 6, 7, 0, 0, 0, 5, 6, 7}},
+          LightCase{{1, 4, 4, -4, -4, 1 - r}, {3, 3, 3, 4, 8, 4}, 0, {1, 3, 4, 5, 6, r, 1, 3, 3, 5, 8, r}},
+          LightCase{{n, n, n, n, n, n}, {3, 3, 3, 4, 4, 4}, 2, {0, 0, 0, r, r, r, 0, 0, 0, r, r, r}}})
+    {
+        info.colliders = c.colliders;
+        std::vector<int> light_room = c.before;
+        light_room.resize(12, -1);
+        const Buffers buffers = {{"room", filled(device, std::vector<int>{2, 3, 4, 5, 6, 7})},
+                                 {"head_touched", filled(device, c.head)},
+                                 {"light_room", filled(device, light_room)},
+                                 {"info", filled(device, info)}};
+        launch("light_room", buffers, cl::NDRange(1), "-D BODY_GRID");
+        EXPECT_EQ(read<int>(device, buffers.at("light_room"), 12), c.light_room);
+    }
 }
 
 TEST_P(GridPasses, TransmittanceIsTheTwinsFromEverySide)
@@ -249,13 +290,25 @@ TEST_P(GridPasses, TransmittanceIsTheTwinsFromEverySide)
     for (int i = 0; i < 6; ++i)
         lights.push_back(random.direction());
     Kernel kernel = load_kernel(device, "transmittance", pass_options(device, 16, resolution));
-    const std::vector<int> occupied = random_density(20 * 4096);
-    for (const glm::dvec3& light : lights)
+    const std::vector<int> everywhere = random_density(20 * 4096);
+    std::vector<int> boxed = everywhere;
+    const std::vector<int> box = {resolution / 4, resolution / 2, 1, resolution / 2, resolution - 2, resolution / 3};
+    for (int i = 0; i < int(voxels); ++i)
     {
+        const int at[] = {i % resolution, i / resolution % resolution, i / resolution / resolution};
+        for (int axis = 0; axis < 3; ++axis)
+            if (at[axis] < box[size_t(axis)] || at[axis] >= box[size_t(axis + 3)])
+                boxed[size_t(i)] = 0;
+    }
+    for (size_t l = 0; l < 2 * lights.size(); ++l) // through a full grid, and through one that says where it is empty
+    {
+        const glm::dvec3 light = lights[l / 2];
+        const std::vector<int>& occupied = l % 2 ? boxed : everywhere;
         HairParams params;
         const StepInfo info = lit_info(random, resolution, light, params);
         const Buffers buffers = {{"occupied", filled(device, occupied)},
                                  {"depth", filled(device, std::vector<float>(voxels, NAN))},
+                                 {"light_room", filled(device, l % 2 ? box : rooms()[0])},
                                  {"info", filled(device, info)}};
         run(device, kernel, buffers, cl::NDRange(voxels / size_t(resolution) / chunk));
         const std::vector<float> depth = read<float>(device, buffers.at("depth"), voxels);
