@@ -190,9 +190,12 @@ TEST_P(GridSteps, TheHeadIsStoodInTheGridOnlyWhereItChanges)
     params.look_self_shadow = 0.5f;
     solver.set_params(params);
     EXPECT_EQ(stood(), 1);
-    solver.set_body({lumpy_body(), 1.1f, {0.0f, 0.0f, 0.0f}});
-    EXPECT_EQ(stood(), 1);
-    EXPECT_EQ(stood(), 0);
+    for (const float side : {0.2f, -0.2f, 0.2f}) // it stands out of the hair to one side, and then no more
+    {
+        solver.set_body({lumpy_body(), 1.1f, {side, 0.5f * side, side}});
+        EXPECT_EQ(stood(), 1);
+        EXPECT_EQ(stood(), 0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GridSteps, testing::Values(1, 8, 16));
