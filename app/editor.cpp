@@ -457,6 +457,7 @@ bool Editor::frame()
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     SDL_GL_SwapWindow(window_.sdl());
+    programs_.begin();
     give_way(1e3 * double(SDL_GetPerformanceCounter() - tick) / double(SDL_GetPerformanceFrequency()));
     return !closed_;
 }

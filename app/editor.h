@@ -15,6 +15,7 @@
 #include "app/waiting.h"
 #include "app/watch.h"
 #include "sim/health.h"
+#include "sim/program_cache.h"
 
 #include <SDL.h>
 
@@ -224,6 +225,7 @@ class Editor
     void guarded(const std::function<void()>& action);         // errors become the message
     std::unique_ptr<Simulation> alive(const Hairstyle& style); // with a word to who waits for it to fall
 
+    ProgramKeeper programs_;
     Window window_;
     Device device_;
     Hairstyle style_, saved_; // as edited; as last read or written

@@ -187,16 +187,17 @@ int report(const Options& options, const ReportOptions& wanted)
             "{}, \"frames\": {}, \"finite\": {}, \"stretch_max\": {}, \"stretch_mean\": {}, \"penetration_max_mm\": "
             "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"bad_strands\": {}, \"dropped_steps\": {}, "
             "\"ms_frame_median\": {}, "
-            "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"quality\": {}, "
+            "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"blocks\": {}, \"blocks_awake\": {}, "
+            "\"quality\": {}, "
             "\"substeps_error_predicted\": {}, \"substeps_error_measured\": {}, \"look\": {{\"level\": {}, "
             "\"ms_light\": {}, \"levels\": [{}]}}}}\n",
             json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
             groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
             json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
             json(bad), simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "),
-            fmt::join(ran, ", "), simulation.solver().asleep(), json_text(quality.said), json_number(predicted),
-            json_number(time_error), json_text(level_name(look.chosen)), json_number(look.light_ms),
-            fmt::join(levels, ", "));
+            fmt::join(ran, ", "), simulation.solver().asleep(), groom.blocks, simulation.solver().blocks_awake(),
+            json_text(quality.said), json_number(predicted), json_number(time_error),
+            json_text(level_name(look.chosen)), json_number(look.light_ms), fmt::join(levels, ", "));
     }
     else
     {
@@ -225,6 +226,9 @@ int report(const Options& options, const ReportOptions& wanted)
                                 level_name(look.levels[i].level), look.ms[i], 100.0 * look.levels[i].left_out);
         if (simulation.solver().asleep())
             text += "  asleep: at rest, nothing runs\n";
+        else
+            text += fmt::format("  {} of {} blocks of {} guides awake at the end\n", simulation.solver().blocks_awake(),
+                                groom.blocks, LANES);
         if (!quality.said.empty())
             text += quality_text(quality) + "\n";
         if (!quality.rungs.empty())

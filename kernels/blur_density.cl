@@ -6,10 +6,12 @@
 // AXIS is 0, 1 or 2; BOX is one of StepInfo's; CHUNK voxels along x make a work-item.
 #include "chunk.h"
 
-kernel void blur_density(global const int* density, global int* blurred, constant StepInfo* info)
+kernel void blur_density(global const int* density, global int* blurred, constant int* room, constant StepInfo* info)
 {
-    const int i = get_global_id(0) * CHUNK, reach = (int)info->BOX.x;
-    const int x = i % RESOLUTION, y = i / RESOLUTION % RESOLUTION, z = i / RESOLUTION / RESOLUTION;
+    const int x = get_global_id(0) * CHUNK, y = get_global_id(1), z = get_global_id(2);
+    if (out_of_room(room, x, y, z))
+        return;
+    const int i = (z * RESOLUTION + y) * RESOLUTION + x, reach = (int)info->BOX.x;
     chunk sum = CHUNK_LOAD(density + i), ends = (chunk)(0);
 #if AXIS == 0
     chunk left = sum, right = sum;

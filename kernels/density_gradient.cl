@@ -2,10 +2,12 @@
 // density is zero. CHUNK voxels along x make a work-item; the three components lie one after the other.
 #include "chunk.h"
 
-kernel void density_gradient(global const int* density, global float* gradient)
+kernel void density_gradient(global const int* density, global float* gradient, constant int* room)
 {
-    const int i = get_global_id(0) * CHUNK;
-    const int x = i % RESOLUTION, y = i / RESOLUTION % RESOLUTION, z = i / RESOLUTION / RESOLUTION;
+    const int x = get_global_id(0) * CHUNK, y = get_global_id(1), z = get_global_id(2);
+    if (out_of_room(room, x, y, z))
+        return;
+    const int i = (z * RESOLUTION + y) * RESOLUTION + x;
     const int plane = RESOLUTION * RESOLUTION, all = plane * RESOLUTION;
     const chunk zero = (chunk)(0);
 

@@ -38,9 +38,32 @@ static inline BodyCell body_cell(Points p, int size_x, int size_y, int size_z, f
     return cell;
 }
 
-// Distance to the surface about a point in the head's frame, m, and the unit normal of the plane that the surface is
-// nearby, outwards in that frame: the trilinear distance, and the gradient of just that. In a crease, where the
-// gradient vanishes, along the head's y. Outside of the grid, what its border has and the way there.
+// From the world's axes to the head's frame, by the transposed rotation.
+static inline Points turn_back_by(float4 r0, float4 r1, float4 r2, Points p)
+{
+    return points(r0.x * p.x + r1.x * p.y + r2.x * p.z, r0.y * p.x + r1.y * p.y + r2.y * p.z,
+                  r0.z * p.x + r1.z * p.y + r2.z * p.z);
+}
+
+// Distance to the surface about a point in the head's frame, m: trilinear, and outside of the grid what its border has
+// and the way there.
+static inline real head_height(global const float* body_distance, Points p, constant StepInfo* info)
+{
+    const BodyCell cell = body_cell(p, info->body_x, info->body_y, info->body_z, 1.0f, info);
+    const int row = info->body_x, plane = info->body_x * info->body_y;
+    real v0, v1, v2, v3, v4, v5, v6, v7;
+    gather_pair(body_distance, cell.first, &v0, &v1);
+    gather_pair(body_distance + row, cell.first, &v2, &v3);
+    gather_pair(body_distance + plane, cell.first, &v4, &v5);
+    gather_pair(body_distance + plane + row, cell.first, &v6, &v7);
+    const real below = mix(mix(v0, v1, cell.fx), mix(v2, v3, cell.fx), cell.fy);
+    const real above = mix(mix(v4, v5, cell.fx), mix(v6, v7, cell.fx), cell.fy);
+    const real distance = (mix(below, above, cell.fz) + cell.away) * info->body_corner.w;
+    return select((real)(FAR_OUTSIDE), distance, distance < FAR_OUTSIDE);
+}
+
+// The same, and the unit normal of the plane that the surface is nearby, outwards in that frame: the gradient of just
+// that distance. In a crease, where it vanishes, along the head's y.
 static inline real head_distance(global const float* body_distance, Points p, Points* normal, constant StepInfo* info)
 {
     const BodyCell cell = body_cell(p, info->body_x, info->body_y, info->body_z, 1.0f, info);
@@ -66,13 +89,6 @@ static inline real head_distance(global const float* body_distance, Points p, Po
     *normal = select_points(points((real)(0.0f), (real)(1.0f), (real)(0.0f)),
                             points(slope_x * shorten, slope_y * shorten, slope_z * shorten), squared > 1e-8f);
     return select((real)(FAR_OUTSIDE), distance, distance < FAR_OUTSIDE);
-}
-
-// From the world's axes to the head's frame, by the transposed rotation.
-static inline Points turn_back_by(float4 r0, float4 r1, float4 r2, Points p)
-{
-    return points(r0.x * p.x + r1.x * p.y + r2.x * p.z, r0.y * p.x + r1.y * p.y + r2.y * p.z,
-                  r0.z * p.x + r1.z * p.y + r2.z * p.z);
 }
 
 // The plane that the surface is nearby: unit normal, outwards, and how far above it a point is.

@@ -46,16 +46,19 @@ static inline Points select_points(Points no, Points yes, whole which)
     return points(select(no.x, yes.x, which), select(no.y, yes.y, which), select(no.z, yes.z, which));
 }
 
-// One value for each lane.
+// One value for each lane. Written out, for through memory it takes twice as long.
 static inline real gather(global const float* from, whole at)
 {
-    int index[WIDTH];
-    float value[WIDTH];
-    LANES_STORE(at, index);
-#pragma unroll
-    for (int lane = 0; lane < WIDTH; ++lane)
-        value[lane] = from[index[lane]];
-    return LANES_LOAD(value);
+#if WIDTH == 16
+    return (real)(from[at.s0], from[at.s1], from[at.s2], from[at.s3], from[at.s4], from[at.s5], from[at.s6],
+                  from[at.s7], from[at.s8], from[at.s9], from[at.sa], from[at.sb], from[at.sc], from[at.sd],
+                  from[at.se], from[at.sf]);
+#elif WIDTH == 8
+    return (real)(from[at.s0], from[at.s1], from[at.s2], from[at.s3], from[at.s4], from[at.s5], from[at.s6],
+                  from[at.s7]);
+#else
+    return from[at];
+#endif
 }
 
 // The strands of the lanes from `first` on. Lanes past the last strand repeat it: they compute and store the same.
@@ -66,30 +69,49 @@ static inline void number_lanes(int first, int count, int* strand)
         strand[lane] = min(first + lane, count - 1);
 }
 
+// Four strands' points at a time, whose components then find their lanes.
 static inline Points load_node(global const float4* nodes, const int* strand, int node)
 {
-    float x[WIDTH], y[WIDTH], z[WIDTH];
-#pragma unroll
-    for (int lane = 0; lane < WIDTH; ++lane)
-    {
-        const float4 p = nodes[strand[lane] * NODES + node];
-        x[lane] = p.x;
-        y[lane] = p.y;
-        z[lane] = p.z;
-    }
-    return points(LANES_LOAD(x), LANES_LOAD(y), LANES_LOAD(z));
+    nodes += node;
+#define NODE_OF(lane) nodes[strand[lane] * NODES]
+#define FOUR_FROM(lane) (float16)(NODE_OF(lane), NODE_OF(lane + 1), NODE_OF(lane + 2), NODE_OF(lane + 3))
+#if WIDTH == 16
+    const float16 a = FOUR_FROM(0), b = FOUR_FROM(4), c = FOUR_FROM(8), d = FOUR_FROM(12);
+    return points((real)(a.s048c, b.s048c, c.s048c, d.s048c), (real)(a.s159d, b.s159d, c.s159d, d.s159d),
+                  (real)(a.s26ae, b.s26ae, c.s26ae, d.s26ae));
+#elif WIDTH == 8
+    const float16 a = FOUR_FROM(0), b = FOUR_FROM(4);
+    return points((real)(a.s048c, b.s048c), (real)(a.s159d, b.s159d), (real)(a.s26ae, b.s26ae));
+#else
+    const float4 p = NODE_OF(0);
+    return points(p.x, p.y, p.z);
+#endif
 }
 
 static inline void store_node(global float4* nodes, const int* strand, int node, Points p, real with)
 {
-    float x[WIDTH], y[WIDTH], z[WIDTH], w[WIDTH];
-    LANES_STORE(p.x, x);
-    LANES_STORE(p.y, y);
-    LANES_STORE(p.z, z);
-    LANES_STORE(with, w);
-#pragma unroll
-    for (int lane = 0; lane < WIDTH; ++lane)
-        nodes[strand[lane] * NODES + node] = (float4)(x[lane], y[lane], z[lane], w[lane]);
+    nodes += node;
+#if WIDTH == 1
+    NODE_OF(0) = (float4)(p.x, p.y, p.z, with);
+#else
+#define STORE_FOUR(lane, part)                                                                                         \
+    {                                                                                                                  \
+        const float4 x = p.x.part, y = p.y.part, z = p.z.part, w = with.part;                                          \
+        NODE_OF(lane) = (float4)(x.x, y.x, z.x, w.x);                                                                  \
+        NODE_OF(lane + 1) = (float4)(x.y, y.y, z.y, w.y);                                                              \
+        NODE_OF(lane + 2) = (float4)(x.z, y.z, z.z, w.z);                                                              \
+        NODE_OF(lane + 3) = (float4)(x.w, y.w, z.w, w.w);                                                              \
+    }
+    STORE_FOUR(0, s0123)
+    STORE_FOUR(4, s4567)
+#if WIDTH == 16
+    STORE_FOUR(8, s89ab)
+    STORE_FOUR(12, scdef)
+#endif
+#undef STORE_FOUR
+#endif
+#undef FOUR_FROM
+#undef NODE_OF
 }
 
 #endif

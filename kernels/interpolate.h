@@ -11,15 +11,8 @@
 static inline Points guide_node(global const float* position, const int* guide, int node)
 {
     global const float* from = position + node * 3 * LANES;
-    float x[WIDTH], y[WIDTH], z[WIDTH];
-#pragma unroll
-    for (int lane = 0; lane < WIDTH; ++lane)
-    {
-        x[lane] = from[guide[lane]];
-        y[lane] = from[guide[lane] + LANES];
-        z[lane] = from[guide[lane] + 2 * LANES];
-    }
-    return points(LANES_LOAD(x), LANES_LOAD(y), LANES_LOAD(z));
+    const whole at = LANES_LOAD(guide);
+    return points(gather(from, at), gather(from + LANES, at), gather(from + 2 * LANES, at));
 }
 
 // What a node at distance d along the strand, in segments, adds to a Catmull-Rom curve: the weights of strand_curve.h

@@ -16,13 +16,24 @@ static inline real slice_depth(global const float* depth, real u, real v, whole 
     const real passed = TO_REAL(slice);
     const real ru = light_rays(u, info->sweep.x, passed), rv = light_rays(v, info->sweep.y, passed);
     const whole u0 = min(TO_WHOLE(ru), (whole)(RESOLUTION - 1)), v0 = min(TO_WHOLE(rv), (whole)(RESOLUTION - 1));
-    const whole u1 = select((whole)(0), u0 + 1, u0 + 1 < RESOLUTION),
-                v1 = select((whole)(0), v0 + 1, v0 + 1 < RESOLUTION);
+    const whole v1 = select((whole)(0), v0 + 1, v0 + 1 < RESOLUTION);
     const whole row0 = (slice * RESOLUTION + v0) * RESOLUTION, row1 = (slice * RESOLUTION + v1) * RESOLUTION;
     const real across = ru - TO_REAL(u0), along = rv - TO_REAL(v0);
-    const real low = mix(gather(depth, row0 + u0), gather(depth, row0 + u1), across);
-    const real high = mix(gather(depth, row1 + u0), gather(depth, row1 + u1), across);
-    return mix(low, high, along);
+    real low0, low1, high0, high1;
+    const whole at_seam = u0 + 1 >= RESOLUTION; // beside which the first ray lies, not the next row's
+    int low_at[WIDTH], high_at[WIDTH];
+    LANES_STORE(row0 + select(u0, u0 - 1, at_seam), low_at);
+    LANES_STORE(row1 + select(u0, u0 - 1, at_seam), high_at);
+    gather_pair(depth, low_at, &low0, &low1);
+    gather_pair(depth, high_at, &high0, &high1);
+    if (any_lane(at_seam))
+    {
+        low0 = select(low0, low1, at_seam);
+        high0 = select(high0, high1, at_seam);
+        low1 = select(low1, gather(depth, row0), at_seam);
+        high1 = select(high1, gather(depth, row1), at_seam);
+    }
+    return mix(mix(low0, low1, across), mix(high0, high1, across), along);
 }
 
 // Optical depth between a point and the light. Half a voxel towards the light, so that a strand does not shade itself.

@@ -75,13 +75,18 @@ static inline void gather_pair(global const float* from, const int* first, real*
 // The smallest lane.
 static inline float least(real v)
 {
-    float lanes[WIDTH];
-    LANES_STORE(v, lanes);
-    float low = lanes[0];
-#pragma unroll
-    for (int lane = 1; lane < WIDTH; ++lane)
-        low = fmin(low, lanes[lane]);
-    return low;
+#if WIDTH == 16
+    const float8 in8 = fmin(v.lo, v.hi);
+    const float4 in4 = fmin(in8.lo, in8.hi);
+    const float2 in2 = fmin(in4.lo, in4.hi);
+    return fmin(in2.x, in2.y);
+#elif WIDTH == 8
+    const float4 in4 = fmin(v.lo, v.hi);
+    const float2 in2 = fmin(in4.lo, in4.hi);
+    return fmin(in2.x, in2.y);
+#else
+    return v;
+#endif
 }
 
 static inline float greatest(real v) { return -least(-v); }

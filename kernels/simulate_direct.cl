@@ -8,6 +8,9 @@
 //
 // Each strand has its own share of the stiffness, bend_factor.
 //
+// A block of strands that has been at rest for a while sleeps: it stays where it is until the host, by setting `still`
+// to zero, or other hair by its density wakes it.
+//
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
 // (with CONTACT), DENSITY and HELD are build options.
@@ -15,6 +18,7 @@
 #include "direct.h"
 #include "faults.h"
 #include "forces.h"
+#include "sleep.h"
 
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
@@ -46,6 +50,25 @@ static inline int pace_for(global const float* tension, global const float* segm
     return max(up, min(before, down));
 }
 
+static inline int sleeps(global const float* still, int block)
+{
+    float shortest = still[block * LANES];
+    for (int lane = 1; lane < LANES; ++lane)
+        shortest = fmin(shortest, still[block * LANES + lane]);
+    return shortest >= SLEEP_AFTER;
+}
+
+#ifdef REPULSION
+// What the other hair does to all nodes together, m/s^2.
+static inline Points push_along(global const float* gradient, global const float* position, constant StepInfo* info)
+{
+    Points sum = points((real)(0.0f), (real)(0.0f), (real)(0.0f));
+    for (int i = 2; i < NODES; ++i)
+        sum = plus(sum, repulsion_at(gradient, load_lanes(position + i * 3 * LANES), info));
+    return sum;
+}
+#endif
+
 // The strands in `which` to their rest shape at this pose of the head, moving with it.
 static inline void start_again(whole which, HeadPose head, global const float* rest_position, Points velocity,
                                Points* x, Points* v, real* pull)
@@ -68,7 +91,8 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
                             global const int* held_nodes,
 #endif
                             global const float* root_normal, global const float* bend_factor,
-                            global const float* gradient, global int* density,
+                            global const float* gradient, global int* density, global int* touched,
+                            global const float* still, global float* still_next, global float* pushed,
                             global float* moved, global int* resets, global int* faults,
                             global const float* body_distance, constant Capsule* bodies, constant StepPath* path,
                             constant HairParams* params, constant StepInfo* info)
@@ -80,6 +104,25 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     const int first = strand_value(strand, 0, 0, NODES), root = strand_value(strand, 0, 0, 1);
     const int first_scalar = block * NODES * LANES + strand % LANES;
     const real rest = fmax(LANES_LOAD(segment_length + strand) * params->strand_spacing, (real)(1e-9f));
+
+    if (sleeps(still, block))
+    {
+        LANES_STORE(LANES_LOAD(tension + strand), tension_next + strand);
+        if (strand % LANES == 0)
+            pace_next[block] = pace[block];
+        real since = LANES_LOAD(still + strand);
+#ifdef REPULSION
+        Points change = minus(push_along(gradient, position + first, info), load_lanes(pushed + root));
+        const float woken_by = WOKEN_BY * (float)(NODES - 2);
+        since = select(since, (real)(0.0f), dot_lanes(change, change) > woken_by * woken_by);
+#endif
+        LANES_STORE(since, still_next + strand);
+#ifdef DENSITY
+        if (info->last_substep)
+            add_strands_density(density, touched, position, strand, info);
+#endif
+        return;
+    }
 
     // pace: 0 at the start, else 1 + that of the last step.
     const int before = pace[block];
@@ -161,9 +204,13 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         wind[i] = wind_at(x[i], info);
 #endif
 #ifdef REPULSION
-    Points push[NODES];
+    Points push[NODES], pushed_by = points((real)(0.0f), (real)(0.0f), (real)(0.0f));
     for (int i = 2; i < NODES; ++i)
+    {
         push[i] = repulsion_at(gradient, x[i], info);
+        pushed_by = plus(pushed_by, push[i]);
+    }
+    store_lanes(pushed_by, pushed + root);
 #endif
 
     real tensest = (real)(0.0f);
@@ -295,7 +342,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         store_lanes(v[i], velocity + first + i * 3 * LANES);
         LANES_STORE(pull[i], multiplier + first_scalar + i * LANES);
     }
-    LANES_STORE(fmax(LANES_LOAD(moved + strand), sqrt(farthest2)), moved + strand);
+    const real farthest = sqrt(farthest2);
+    LANES_STORE(fmax(LANES_LOAD(moved + strand), farthest), moved + strand);
+    const whole calm = farthest < SLEEP_SPEED * info->substep * (float)(NODES - 2) * rest;
+    LANES_STORE(select((real)(0.0f), LANES_LOAD(still + strand) + info->substep, calm), still_next + strand);
     LANES_STORE(select(tensest, (real)(0.0f), bad | !(tensest < 1e30f)), tension_next + strand);
     if (strand % LANES == 0)
         pace_next[block] = 1 + pace_now;
@@ -304,6 +354,6 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 
 #ifdef DENSITY
     if (info->last_substep)
-        add_strands_density(density, position, strand, info);
+        add_strands_density(density, touched, position, strand, info);
 #endif
 }

@@ -62,7 +62,7 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 #ifdef HELD
                          global const float* rest_position, global const int* held_nodes,
 #endif
-                         global const float* gradient, global int* density, global int* resets, global int* faults,
+                         global const float* gradient, global int* density, global int* touched, global int* resets, global int* faults,
                          global const float* body_distance, constant Capsule* colliders, constant HairParams* params,
                          constant StepInfo* info)
 {
@@ -235,6 +235,6 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
 
 #ifdef DENSITY
     if (info->last_substep)
-        add_strands_density(density, position, strand, info);
+        add_strands_density(density, touched, position, strand, info);
 #endif
 }

@@ -4,7 +4,7 @@
 #include "forces.h"
 
 kernel void simulate_rigid(global float* position, global float* velocity, global float* moved,
-                           global const float* rest_position, global int* density, constant StepPath* path,
+                           global const float* rest_position, global int* density, global int* touched, constant StepPath* path,
                            constant StepInfo* info)
 {
     const int strand = get_global_id(0) * WIDTH; // of the first lane
@@ -27,6 +27,6 @@ kernel void simulate_rigid(global float* position, global float* velocity, globa
     LANES_STORE(fmax(LANES_LOAD(moved + strand), sqrt(farthest2)), moved + strand);
 #ifdef DENSITY
     if (info->last_substep)
-        add_strands_density(density, position, strand, info);
+        add_strands_density(density, touched, position, strand, info);
 #endif
 }

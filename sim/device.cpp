@@ -1,6 +1,7 @@
 #include "sim/device.h"
 
 #include "sim/error.h"
+#include "sim/program_cache.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -77,49 +78,66 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {}", e.err(), e.what());
 }
 
+static cl::Program compiled(const Device& device, const ProgramSource& source, const std::filesystem::path& path)
+try
+{
+    return compiled_program(device, source);
+}
+catch (const Error& e)
+{
+    throw fail("{} does not compile:\n{}", path.string(), e.what());
+}
+
+static Kernel kernel_of(const cl::Program& program, const std::string& name)
+{
+    Kernel kernel;
+    kernel.name = name;
+    kernel.handle = cl::Kernel(program, name.c_str());
+    const cl_uint count = kernel.handle.getInfo<CL_KERNEL_NUM_ARGS>();
+    for (cl_uint i = 0; i < count; ++i)
+    {
+        std::string argument = kernel.handle.getArgInfo<CL_KERNEL_ARG_NAME>(i);
+        kernel.arguments.push_back(argument.c_str()); // some drivers count the final zero
+        kernel.writes.push_back(
+            kernel.handle.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL &&
+            !(kernel.handle.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(i) & CL_KERNEL_ARG_TYPE_CONST));
+    }
+    return kernel;
+}
+
 Kernel load_kernel(const Device& device, const std::string& file, const std::string& options)
 {
     const std::string known = file + " " + options;
     if (device.built && device.built->contains(known))
         return device.built->at(known);
     const std::filesystem::path path = device.kernel_folder / (file + ".cl");
-    cl::Program program(device.context, load_source(path));
-    try
-    {
-        // Denormals run 34 times slower on PoCL; -cl-fast-relaxed-math would fold away isfinite.
-        program.build(device.device, ("-cl-std=CL1.2 -cl-kernel-arg-info -cl-denorms-are-zero -cl-mad-enable "
-                                      "-cl-no-signed-zeros " +
-                                      options)
-                                         .c_str());
-    }
-    catch (const cl::Error&)
-    {
-        throw fail("{} does not compile:\n{}", path.string(),
-                   program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device));
-    }
-    Kernel kernel;
-    kernel.name = path.stem().string();
-    try
-    {
-        kernel.handle = cl::Kernel(program, kernel.name.c_str());
-        const cl_uint count = kernel.handle.getInfo<CL_KERNEL_NUM_ARGS>();
-        for (cl_uint i = 0; i < count; ++i)
+    // Denormals run 34 times slower on PoCL; -cl-fast-relaxed-math would fold away isfinite.
+    const ProgramSource source = {load_source(path), "-cl-std=CL1.2 -cl-kernel-arg-info -cl-denorms-are-zero "
+                                                     "-cl-mad-enable -cl-no-signed-zeros " +
+                                                         options};
+    std::optional<Kernel> kernel;
+    if (const std::optional<cl::Program> stored = stored_program(device, source))
+        try
         {
-            std::string argument = kernel.handle.getArgInfo<CL_KERNEL_ARG_NAME>(i);
-            kernel.arguments.push_back(argument.c_str()); // some drivers count the final zero
-            kernel.writes.push_back(
-                kernel.handle.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL &&
-                !(kernel.handle.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(i) & CL_KERNEL_ARG_TYPE_CONST));
+            kernel = kernel_of(*stored, path.stem().string());
         }
-    }
-    catch (const cl::Error& e)
-    {
-        throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(), kernel.name, e.err(),
-                   e.what());
-    }
+        catch (const cl::Error&)
+        {
+            // Some drivers leave the arguments' names out of what they store.
+        }
+    if (!kernel)
+        try
+        {
+            kernel = kernel_of(compiled(device, source, path), path.stem().string());
+        }
+        catch (const cl::Error& e)
+        {
+            throw fail("{} must define: kernel void {}(...); OpenCL error {} from {}", path.string(),
+                       path.stem().string(), e.err(), e.what());
+        }
     if (device.built)
-        device.built->emplace(known, kernel);
-    return kernel;
+        device.built->emplace(known, *kernel);
+    return *kernel;
 }
 
 cl::Event run(const Device& device, Kernel& kernel, const Buffers& buffers, cl::NDRange items, cl::NDRange group)

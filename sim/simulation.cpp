@@ -212,8 +212,10 @@ static bool is_stored(const Hairstyle& style)
 // What hair holds of that shape (bending.hold) it finds again with its own weight on it.
 void Simulation::drape()
 {
+    solver_->let_blocks_sleep(true);
     if (style_.params.solver_kind != 0 || is_stored(style_)) // that is where it rests
         return;
+    solver_->let_blocks_sleep(false);           // where hair comes to lie is looked for more closely
     constexpr int kLookEvery = 16, kMost = 320; // steps
     constexpr double kThick = 15.0;             // 1/s: near critical for the slowest swing of 0.2 m
     HairParams own = style_.params;
@@ -263,6 +265,7 @@ void Simulation::drape()
         solver_->set_groom(groom);
     }
     solver_->set_params(style_.params);
+    solver_->let_blocks_sleep(true);
     solver_->take_times();
     if (falling_)
         falling_(1.0);

@@ -1,6 +1,8 @@
 // What the device holds, put there and looked at; sim/solver_step.cpp sets it in motion.
 #include "sim/solver.h"
 
+#include "kernels/sleep.h"
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
@@ -45,17 +47,22 @@ Solver::~Solver()
 void Solver::set_params(const HairParams& params)
 {
     const HairParams wanted = device_params(params);
-    if (!buffers_.contains("density") || wanted.grid_resolution != params_.grid_resolution)
+    const bool other_grid = !buffers_.contains("density") || wanted.grid_resolution != params_.grid_resolution;
+    if (other_grid)
     {
         const size_t voxels = grid_voxels(wanted);
         Buffers fresh = buffers_; // what cannot be allocated leaves everything as it was
-        for (const char* name : {"density", "blurred", "lit", "occupied", "depth"})
+        for (const char* name : {"density", "blurred", "lit", "in_head", "occupied", "depth"})
             fresh[name] = allocate(device_, voxels * sizeof(int), "the density grid");
         fresh["gradient"] = allocate(device_, voxels * 3 * sizeof(float), "the density's gradient");
-        for (const char* name : {"density", "blurred", "depth"})
+        for (const char* name : {"touched", "touched_before", "room", "head_touched"})
+            fresh[name] = allocate(device_, 6 * sizeof(int), "the density grid");
+        fresh["light_room"] = allocate(device_, 12 * sizeof(int), "the density grid");
+        device_.queue.enqueueFillBuffer(fresh["light_room"], 0, 0, 12 * sizeof(int));
+        for (const char* name : {"occupied", "depth"})
             device_.queue.enqueueFillBuffer(fresh[name], 0, 0, voxels * sizeof(int));
-        device_.queue.enqueueFillBuffer(fresh["gradient"], 0, 0, voxels * 3 * sizeof(float));
         buffers_ = fresh;
+        stood_.reset();
     }
     // What the rest shape hangs on besides the groom.
     const auto shaping = [](const HairParams& p)
@@ -66,6 +73,8 @@ void Solver::set_params(const HairParams& params)
     const bool reshaped = shaping(wanted) != shaping(params_);
     changed_ |= memcmp(&wanted, &params_, sizeof wanted) != 0;
     params_ = wanted;
+    if (other_grid)
+        empty_grid();
     if (reshaped)
         set_rest_shape();
     device_.queue.enqueueWriteBuffer(buffer("params"), CL_TRUE, 0, sizeof params_, &params_);
@@ -89,7 +98,9 @@ void Solver::set_groom(const Groom& groom)
             fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
         for (const char* name : {"pace", "pace_next"})
             fresh[name] = allocate(device_, blocks * sizeof(int), "the guides");
-        fresh["moved"] = allocate(device_, strands * sizeof(float), "the guides");
+        for (const char* name : {"moved", "still", "still_next"})
+            fresh[name] = allocate(device_, strands * sizeof(float), "the guides");
+        fresh["pushed"] = allocate(device_, strands * 3 * sizeof(float), "the guides");
         device_.queue.enqueueFillBuffer(fresh["moved"], 0.0f, 0, strands * sizeof(float));
         fresh["faults"] = allocate(device_, strands * sizeof(int), "the guides");
         device_.queue.enqueueFillBuffer(fresh["faults"], 0, 0, strands * sizeof(int));
@@ -178,6 +189,7 @@ void Solver::set_body(const PlacedGrid& body)
     if (body != body_)
     {
         changed_ = true;
+        stood_.reset();
         rest_clear_.reset();
     }
     body_ = body;
@@ -233,6 +245,16 @@ std::vector<float> Solver::multipliers() const
 }
 std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
+int Solver::blocks_awake() const
+{
+    if (asleep_ || params_.solver_kind != 0)
+        return asleep_ ? 0 : groom_.blocks;
+    const std::vector<float> still = read<float>(device_, buffer("still"), size_t(groom_.blocks) * LANES);
+    int awake = 0;
+    for (auto block = still.begin(); block != still.end(); block += LANES)
+        awake += *std::min_element(block, block + LANES) < SLEEP_AFTER;
+    return awake;
+}
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
 
 } // namespace coif

@@ -28,6 +28,14 @@ struct Moment
 // In a straight line from one to the other, a share of the way; where the head leaps between them, the nearer one.
 Moment between(const Moment& a, const Moment& b, double share);
 
+// What the passes over the grid do: where it changes, what other ones left there must go.
+struct GridUse
+{
+    bool repels, shades;
+    float4 light_box, push_box;
+    bool operator==(const GridUse&) const = default;
+};
+
 // Moves one groom in time, and makes its drawn strands. Data goes one way: parameters, groom, colliders and poses down,
 // positions back; nothing in between touches the host. Throws Error for what the device refuses; where that is memory,
 // all stays as it was.
@@ -58,6 +66,9 @@ class Solver
     // Hair that has come to rest on a head at rest in still air sleeps: steps and draws cost nothing until something
     // changes.
     bool asleep() const { return asleep_; }
+    // So do blocks of 16 strands alone, where they may: those of the direct solver that have come to rest.
+    void let_blocks_sleep(bool may) { blocks_may_sleep_ = may; }
+    int blocks_awake() const;                   // waits for the device
     long drawings() const { return drawings_; } // that draw() has made anew
     void keep_awake() { changed_ = true; }      // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
@@ -92,8 +103,13 @@ class Solver
   private:
     const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
     Kernel& kernel(const std::string& file, const std::string& extra);
-    void launch(const std::string& pass, const std::string& extra, size_t items, size_t group = 0);
+    void launch(const std::string& pass, const std::string& extra, const cl::NDRange& items,
+                const cl::NDRange& group = cl::NullRange);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
+    void launch_grid(const std::string& pass, const std::string& extra = {});
+    void empty_grid();
+    void blur();
+    void stand_head();
     void set_rest_shape();
     bool stands_rigid(const StepInfo& info);
     void look_for_rest();
@@ -111,6 +127,7 @@ class Solver
     std::optional<bool> rest_clear_; // of the bodies, none of which moves against the head; none: not looked at yet
     bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
+    bool blocks_may_sleep_ = false;
     long drawings_ = 0;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in
     double watched_ = 0.0; // s that `moved` is the greatest of
@@ -121,6 +138,9 @@ class Solver
     std::vector<Collider> colliders_;
     PlacedGrid body_;
     StepInfo info_ = {};
+    bool grid_is_fresh_ = true;       // its buffers hold anything
+    std::optional<GridUse> grid_use_; // of the last step
+    std::optional<StepInfo> stood_;   // what the head stood in the grid by
     Buffers buffers_;
     std::map<std::string, Kernel> kernels_; // by file and options
     // What the queue still reads from, and its launches: kept until the host next waits.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace coif
@@ -48,25 +49,40 @@ void Solver::reload_kernels()
     device_.queue.finish();
     kernels_ = std::move(fresh);
     changed_ = true;
+    grid_is_fresh_ = true;
+    stood_.reset();
 }
 
-void Solver::launch(const std::string& pass, const std::string& extra, size_t items, size_t group)
+void Solver::launch(const std::string& pass, const std::string& extra, const cl::NDRange& items,
+                    const cl::NDRange& group)
 {
-    if (items == 0)
-        return;
-    launches_.emplace_back(pass, run(device_, kernel(pass, extra), buffers_, cl::NDRange(items),
-                                     group ? cl::NDRange(group) : cl::NullRange));
+    launches_.emplace_back(pass, run(device_, kernel(pass, extra), buffers_, items, group));
 }
 
 void Solver::launch_strands(const std::string& pass, const std::string& extra, size_t strands)
 {
+    if (strands == 0)
+        return;
     // On CPUs each work-item is a group of its own: left to itself PoCL makes one group of few work-items, on one core.
     // On GPUs whole groups: a number of strands that has no divisors would else be cut into groups of one.
     const size_t width = size_t(device_.width);
     const size_t most = kernel(pass, extra).handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
     const size_t group = width > 1 ? 1 : std::min<size_t>(64, most);
     const size_t items = (strands + width - 1) / width;
-    launch(pass, extra, (items + group - 1) / group * group, group);
+    launch(pass, extra, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group));
+}
+
+// A work-item for each chunk of voxels. On CPUs a slice is a group, as far as that may be: left to itself PoCL makes a
+// few large ones, some of which hold no hair.
+void Solver::launch_grid(const std::string& pass, const std::string& extra)
+{
+    const size_t side = size_t(params_.grid_resolution), chunks = side / size_t(chunk(device_, params_));
+    const size_t most = kernel(pass, extra).handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
+    const cl::NDRange items(chunks, side, side);
+    if (device_.is_gpu)
+        launch(pass, extra, items);
+    else
+        launch(pass, extra, items, cl::NDRange(chunks, chunks * side <= most ? side : 1, 1));
 }
 
 // The queue reads what it is given later: kept until take_times() has waited for it.
@@ -126,8 +142,13 @@ void Solver::upload_direct(const StepPath& path, const Pose& before, bool telepo
 void Solver::simulate(const StepInfo& info)
 {
     const bool repels = params_.forces_repulsion > 0.0f, density = repels || has_shadow();
+    const GridUse use = {repels, has_shadow(), info.light_box, info.push_box};
+    if (grid_is_fresh_ || use != grid_use_)
+        empty_grid();
+    grid_is_fresh_ = false;
+    grid_use_ = use;
     if (info.last_substep && density)
-        launch("clear_density", "", grid_voxels(params_));
+        launch_grid("clear_density");
     if (params_.solver_kind == 0)
         return simulate_direct(info);
     launch_strands("simulate_pbd",
@@ -181,6 +202,7 @@ void Solver::simulate_direct(const StepInfo& info)
                    size_t(groom_.blocks) * LANES);
     std::swap(buffers_["tension"], buffers_["tension_next"]);
     std::swap(buffers_["pace"], buffers_["pace_next"]);
+    std::swap(buffers_["still"], buffers_["still_next"]);
 }
 
 double Solver::fastest()
@@ -216,6 +238,8 @@ void Solver::step(const std::vector<Substep>& wanted)
     drawn_asleep_ &= asleep_;
     if (asleep_)
         return;
+    if ((outside || !blocks_may_sleep_) && params_.solver_kind == 0) // all blocks are awake
+        device_.queue.enqueueFillBuffer(buffer("still"), 0.0f, 0, size_t(groom_.blocks) * LANES * sizeof(float));
     for (size_t i = 0; i < substeps.size(); ++i)
     {
         const Substep& now = substeps[i];
@@ -244,26 +268,62 @@ void Solver::step(const std::vector<Substep>& wanted)
     const bool repels = params_.forces_repulsion > 0.0f;
     if (!repels && !has_shadow())
         return;
-    const size_t chunks = grid_voxels(params_) / size_t(chunk(device_, params_));
-    const auto blur = [&](const char* box, int axis)
+    launch("grid_room", "", cl::NDRange(1), cl::NDRange(1));
+    blur();
+    if (repels)
     {
-        launch("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box), chunks);
+        launch_grid("density_gradient");
+        if (info_.push_box.w > 0.0f)
+            std::swap(buffers_["density"], buffers_["lit"]);
+    }
+}
+
+// The passes of a step write to the part of the grid that hair is or was in (kernels/grid_room.cl) and count on zero
+// beyond it, in buffers that change places.
+void Solver::empty_grid()
+{
+    const size_t voxels = grid_voxels(params_);
+    for (const char* name : {"density", "blurred", "lit"})
+        device_.queue.enqueueFillBuffer(buffer(name), 0, 0, voxels * sizeof(int));
+    device_.queue.enqueueFillBuffer(buffer("gradient"), 0, 0, voxels * 3 * sizeof(float));
+    for (const char* name : {"touched", "touched_before"})
+        device_.queue.enqueueFillBuffer(buffer(name), params_.grid_resolution, 0, 6 * sizeof(int)); // none
+    device_.queue.enqueueFillBuffer(buffer("room"), 0, 0, 6 * sizeof(int));
+}
+
+// For light, and for repulsion further.
+void Solver::blur()
+{
+    const auto along = [&](const char* box, int axis)
+    {
+        launch_grid("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box));
         std::swap(buffers_["density"], buffers_["blurred"]);
     };
     for (int axis = 0; axis < 3 && info_.light_box.w > 0.0f; ++axis)
-        blur("light_box", axis);
-    if (!repels)
-        return;
-    const bool further = info_.push_box.w > 0.0f;
-    for (int axis = 0; axis < 3 && further; ++axis)
+        along("light_box", axis);
+    for (int axis = 0; axis < 3 && params_.forces_repulsion > 0.0f && info_.push_box.w > 0.0f; ++axis)
     {
-        blur("push_box", axis);
+        along("push_box", axis);
         if (axis == 0) // light goes on reading what was there before
             std::swap(buffers_["blurred"], buffers_["lit"]);
     }
-    launch("density_gradient", "", chunks);
-    if (further)
-        std::swap(buffers_["density"], buffers_["lit"]);
+}
+
+// The head's share of the grid: as before as long as neither turns.
+void Solver::stand_head()
+{
+    const auto placed = [](const StepInfo& info)
+    {
+        return std::tuple(info.head_row0, info.head_row1, info.head_row2, info.grid_corner, info.body_corner,
+                          info.body_density);
+    };
+    if (stood_ && placed(*stood_) == placed(info_))
+        return;
+    device_.queue.enqueueFillBuffer(buffer("head_touched"), params_.grid_resolution, 0, 6 * sizeof(int)); // none
+    const size_t bricks = (size_t(params_.grid_resolution) + 3) / 4, width = size_t(device_.width);
+    launch("stand_head", "", cl::NDRange((bricks + width - 1) / width, bricks, bricks),
+           device_.is_gpu ? cl::NullRange : cl::NDRange(1, bricks, 1));
+    stood_ = info_;
 }
 
 void Solver::draw()
@@ -285,17 +345,19 @@ void Solver::draw()
     if (has_shadow())
     {
         const size_t side = size_t(params_.grid_resolution);
-        device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
-                                        grid_voxels(params_) * sizeof(int));
-        if (!colliders_.empty())
-            launches_.emplace_back("add_bodies", run(device_, kernel("add_bodies", ""), buffers_,
-                                                     cl::NDRange(side, side, colliders_.size())));
+        const size_t chunks = side / size_t(chunk(device_, params_));
         if (body_.grid)
-            launches_.emplace_back(
-                "add_head", run(device_, kernel("add_head", ""), buffers_,
-                                cl::NDRange((side + size_t(device_.width) - 1) / size_t(device_.width), side, side)));
-        launch("transmittance", "", side * side / size_t(chunk(device_, params_)),
-               device_.is_gpu ? 0 : side / size_t(chunk(device_, params_))); // few and long: groups for all cores
+            stand_head();
+        launch("light_room", body_.grid ? "-D BODY_GRID" : "", cl::NDRange(1), cl::NDRange(1));
+        if (body_.grid)
+            launch_grid("add_head");
+        else
+            device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
+                                            grid_voxels(params_) * sizeof(int));
+        if (!colliders_.empty())
+            launch("add_bodies", "", cl::NDRange(side, side, colliders_.size()));
+        launch("transmittance", "", cl::NDRange(side * chunks),
+               device_.is_gpu ? cl::NullRange : cl::NDRange(chunks)); // few and long: groups for all cores
     }
     launch_strands("interpolate_multi", options + (groom_.tied.empty() ? "" : "-D TIED " + braided),
                    size_t(groom_.drawn_multi));

@@ -118,6 +118,19 @@ Density add_density(const Strands& strands, int resolution, const StepInfo& info
     return density;
 }
 
+std::pair<glm::ivec3, glm::ivec3> box_of(const std::vector<int>& grid, int resolution)
+{
+    glm::ivec3 low(resolution), high(-1);
+    for (int i = 0; i < int(grid.size()); ++i)
+        if (grid[size_t(i)] != 0)
+        {
+            const glm::ivec3 at(i % resolution, i / resolution % resolution, i / resolution / resolution);
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
+    return {low, high};
+}
+
 template <typename T> static T value_or_zero(const std::vector<T>& values, int x, int y, int z, int resolution)
 {
     const auto inside = [&](int i) { return i >= 0 && i < resolution; };

@@ -94,6 +94,9 @@ struct Density
 };
 Density add_density(const Strands& strands, int resolution, const StepInfo& info);
 
+// The least and the greatest voxel along each axis of those that are not zero.
+std::pair<glm::ivec3, glm::ivec3> box_of(const std::vector<int>& grid, int resolution);
+
 // One axis of a box blur, unrounded (`box` as in StepInfo), and the central difference (eq. 5.8); zero outside.
 std::vector<double> blur_density(const std::vector<int>& density, int axis, int resolution, const float4& box);
 std::vector<Vec> density_gradient(const std::vector<int>& density, int resolution);

@@ -183,6 +183,10 @@ class DirectPass : public testing::TestWithParam<Case>
                 {"pace_next", filled(device, std::vector<int>(size_t(groom.blocks), -1))},
                 {"gradient", filled(device, axis_by_axis(step.gradient))},
                 {"density", filled(device, std::vector<int>(20 * 20 * 20, 0))},
+                {"touched", filled(device, std::vector<int>(6, 20))},
+                {"still", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 0.0f))},
+                {"still_next", filled(device, std::vector<float>(size_t(groom.blocks) * 16, -1.0f))},
+                {"pushed", filled(device, std::vector<float>(size_t(groom.blocks) * 16 * 3, 0.0f))},
                 {"moved", filled(device, std::vector<float>(size_t(groom.blocks) * 16, 0.0f))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
@@ -337,6 +341,14 @@ TEST_P(DirectPass, AddsItsNodesToTheDensityInFixedPoint)
     }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(shares, 0);
+    // The box about all that has got some; shares that round to nothing may widen it.
+    const std::vector<int> touched = read<int>(test_device(), on_device.at("touched"), 6);
+    const auto [low, high] = oracle::box_of(density, 20);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        EXPECT_NEAR(touched[size_t(axis)], low[axis] - 0.5, 0.5);
+        EXPECT_NEAR(-touched[size_t(3 + axis)], high[axis] + 0.5, 0.5);
+    }
 }
 
 TEST_P(DirectPass, StartsABadStrandAnewAndLeavesItsNeighboursTheirBits)

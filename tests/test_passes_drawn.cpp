@@ -103,6 +103,7 @@ class DrawnPasses : public testing::TestWithParam<Case>
         for (int i = 0; i < c.resolution * c.resolution * c.resolution; ++i)
             density.push_back(random.below(4096));
         write(device, buffers.at("density"), density);
+        write(device, buffers.at("room"), std::vector<int>{0, 0, 0, c.resolution, c.resolution, c.resolution});
         solver->draw();
         read_params = device_params(params);
         const size_t nodes = groom.drawn.size() * size_t(c.nodes);

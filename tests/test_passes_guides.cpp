@@ -101,6 +101,7 @@ class SimulatePass : public testing::TestWithParam<Case>
                 {"held_nodes", filled(device, c.held ? groom.held : std::vector<int>(1))},
                 {"gradient", filled(device, axis_by_axis(gradient))},
                 {"density", filled(device, std::vector<int>(gradient.size(), 0))},
+                {"touched", filled(device, std::vector<int>(6, c.resolution))},
                 {"resets", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"faults", filled(device, std::vector<int>(size_t(groom.blocks) * 16, 0))},
                 {"colliders", filled(device, colliders)},
@@ -208,6 +209,14 @@ TEST_P(SimulatePass, AddsItsNodesToTheDensityInFixedPoint)
         }
         EXPECT_EQ(wrong, 0) << "stride " << stride;
         EXPECT_GT(shares, 0);
+        // The box about all that has got some; shares that round to nothing may widen it.
+        const std::vector<int> touched = read<int>(device, on_device.at("touched"), 6);
+        const auto [low, high] = oracle::box_of(density, c.resolution);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            EXPECT_NEAR(touched[size_t(axis)], low[axis] - 0.5, 0.5);
+            EXPECT_NEAR(-touched[size_t(3 + axis)], high[axis] + 0.5, 0.5);
+        }
     }
 }
 

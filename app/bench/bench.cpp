@@ -20,6 +20,7 @@ static const BenchScene kScenes[] = {
     {"picture", "drawing strands", bench_picture},
     {"look", "light in hair", bench_look},
     {"growth", "over strands and cores", bench_growth},
+    {"start", "from nothing to a picture", bench_start},
 };
 
 // Time over the number of strands, and on how many cores.
@@ -62,7 +63,7 @@ int bench(const Options& options, const BenchOptions& wanted)
     const Progress line;
     line.say("the machine's limits");
     const Machine machine = measure_machine(device);
-    Benching with{device, machine, wanted.quick, {}};
+    Benching with{device, machine, wanted.quick, {}, folder};
     std::vector<BenchRow> rows;
     for (size_t i = 0; i < chosen.size(); ++i)
     {

@@ -3,6 +3,7 @@
 #include "app/bench/rows.h"
 #include "app/options.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct Benching
     const Machine& machine;
     bool quick = false;
     std::function<void(const std::string&)> progress;
+    std::filesystem::path folder; // of its results
 };
 
 // One scene of the bench. To add one, write its function and its line in bench.cpp.
@@ -40,6 +42,8 @@ std::vector<BenchRow> bench_thesis(const Benching& with);     // its kernel and 
 std::vector<BenchRow> bench_picture(const Benching& with);    // strands drawn either way
 std::vector<BenchRow> bench_look(const Benching& with);       // light in hair, at each level
 std::vector<BenchRow> bench_growth(const Benching& with);     // over the number of strands and of cores
+
+std::vector<BenchRow> bench_start(const Benching& with); // from nothing to a picture
 
 // Runs the scenes, writes bench.csv, bench.json and plots/ into options.output, and prints a table. Returns the exit
 // status: 0, for no machine's speed is a fault.

@@ -26,6 +26,15 @@ BenchHair::BenchHair(const Device& device, const std::string& preset, const std:
     solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));
 }
 
+static PassTimes per_frame(PassTimes times, std::chrono::steady_clock::time_point begin, int count)
+{
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
+    for (auto& [pass, ms] : times)
+        ms /= count;
+    times.insert(times.begin(), {"frame", passed.count() / count});
+    return times;
+}
+
 PassTimes BenchHair::frames(int count, bool drawn)
 {
     solver_->take_times();
@@ -41,20 +50,45 @@ PassTimes BenchHair::frames(int count, bool drawn)
         if (drawn)
             solver_->draw();
     }
-    PassTimes times = solver_->take_times(); // waits
-    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
-    for (auto& [pass, ms] : times)
-        ms /= count;
-    times.insert(times.begin(), {"frame", passed.count() / count});
-    return times;
+    return per_frame(solver_->take_times(), begin, count); // waits
+}
+
+PassTimes BenchHair::rest(double seconds)
+{
+    solver_->take_times();
+    const auto begin = std::chrono::steady_clock::now();
+    const int count = int(std::lround(60.0 * seconds));
+    solver_->let_blocks_sleep(true);
+    for (int i = 0; i < count; ++i)
+    {
+        time_ += 1.0 / 60.0;
+        solver_->step({{solver_->head(), time_, 1.0f / 60.0f}});
+    }
+    return per_frame(solver_->take_times(), begin, count);
+}
+
+// How much of the grid its passes see to: kernels/grid_room.cl.
+static double share_of_grid(const Solver& solver)
+{
+    const std::vector<int> room = read<int>(solver.device(), solver.buffers().at("room"), 6);
+    double voxels = 1.0;
+    for (size_t axis = 0; axis < 3; ++axis)
+        voxels *= std::max(0, room[axis + 3] - room[axis]);
+    return voxels / double(solver.buffers().at("density").getInfo<CL_MEM_SIZE>() / sizeof(int));
+}
+
+static bool keeps_to_room(const std::string& pass)
+{
+    return pass == "clear_density" || pass == "blur_density" || pass == "density_gradient";
 }
 
 std::map<std::string, double> traffic_of(const Solver& solver)
 {
     std::map<std::string, double> bytes;
+    const double share = share_of_grid(solver);
     for (const auto& [key, kernel] : solver.kernels())
         for (size_t i = 0; i < kernel.arguments.size(); ++i)
-            bytes[kernel.name] += (kernel.writes[i] ? 2.0 : 1.0) *
+            bytes[kernel.name] += (keeps_to_room(kernel.name) ? share : 1.0) * (kernel.writes[i] ? 2.0 : 1.0) *
                                   double(solver.buffers().at(kernel.arguments[i]).getInfo<CL_MEM_SIZE>());
     return bytes;
 }
@@ -95,15 +129,15 @@ static double of_direct(const Solver& solver, const std::string& options)
 std::map<std::string, double> operations_of(const Solver& solver)
 {
     const double side = std::cbrt(double(solver.buffers().at("density").getInfo<CL_MEM_SIZE>() / sizeof(int)));
-    const double voxels = side * side * side;
+    const double voxels = side * side * side, in_room = share_of_grid(solver) * voxels;
     std::map<std::string, double> operations;
     for (const auto& [key, kernel] : solver.kernels())
         if (kernel.name == "simulate_direct")
             operations[kernel.name] += of_direct(solver, key);
         else if (kernel.name == "blur_density")
-            operations[kernel.name] += voxels * (2.0 * (double(solver.info().light_box.x) + 1.0) + 5.0);
+            operations[kernel.name] += in_room * (2.0 * (double(solver.info().light_box.x) + 1.0) + 5.0);
         else if (kernel.name == "density_gradient")
-            operations[kernel.name] += voxels * 6.0;
+            operations[kernel.name] += in_room * 6.0;
         else if (kernel.name == "transmittance")
             operations[kernel.name] += voxels * 14.0;
     return operations;

@@ -19,6 +19,8 @@ class BenchHair
     // Some frames of 1/60 s, with the drawn strands if `drawn`: ms of each pass in one of them and, first, of the whole
     // frame on the clock.
     PassTimes frames(int count, bool drawn);
+    // The same on a head that stands still where it is, for so many seconds; hair may sleep.
+    PassTimes rest(double seconds);
 
     Solver& solver() { return *solver_; }
     int strands() const { return solver_->groom().guides; }

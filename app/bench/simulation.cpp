@@ -77,6 +77,24 @@ std::vector<BenchRow> bench_whole_head(const Benching& with)
     return rows;
 }
 
+// The same hair once its head has come to a stop. Each second comes but once, so it is timed once.
+static void add_rest(std::vector<BenchRow>& rows, BenchHair& hair, const Benching& with)
+{
+    with.progress("at rest");
+    for (int second = 1; second <= 8; ++second)
+    {
+        BenchRow row;
+        row.what = "frame";
+        row.ms = row.low = row.high = hair.rest(1.0).front().second;
+        row.strands = hair.strands();
+        row.cores = with.machine.compute_units;
+        row.note = fmt::format("second {} of rest: {} of {} blocks awake at its end", second,
+                               hair.solver().blocks_awake(), hair.solver().groom().blocks);
+        if (second == 1 || second % 2 == 0)
+            rows.push_back(row);
+    }
+}
+
 std::vector<BenchRow> bench_guides(const Benching& with)
 {
     std::vector<BenchRow> rows;
@@ -90,6 +108,7 @@ std::vector<BenchRow> bench_guides(const Benching& with)
     const size_t first = rows.size();
     add_rows(rows, times[1], few, with, "4096 drawn of them, everything on");
     rows[first].most_ms = 1.5;
+    add_rest(rows, many, with);
     return rows;
 }
 
