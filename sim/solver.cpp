@@ -233,6 +233,6 @@ std::vector<float> Solver::multipliers() const
 }
 std::vector<int> Solver::faults() const { return read<int>(device_, buffer("faults"), size_t(groom_.guides)); }
 std::vector<int> Solver::resets() const { return read<int>(device_, buffer("resets"), size_t(groom_.guides)); }
-bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
+bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f && lit_by_kajiya_kay(params_); }
 
 } // namespace coif

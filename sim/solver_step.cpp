@@ -199,6 +199,23 @@ void Solver::look_for_rest()
     asleep_ = calm_ >= 3; // the first saw what was before, too
 }
 
+void Solver::blur_density(const char* box, int axis)
+{
+    launch("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box),
+           grid_voxels(params_) / size_t(chunk(device_, params_)));
+    std::swap(buffers_["density"], buffers_["blurred"]);
+}
+
+// As the last step would have, had light been asked for then.
+void Solver::make_density()
+{
+    launch("clear_density", "", grid_voxels(params_));
+    launch_strands("deposit_density", "", size_t(groom_.guides));
+    for (int axis = 0; axis < 3 && info_.light_box.w > 0.0f; ++axis)
+        blur_density("light_box", axis);
+    dense_ = true;
+}
+
 void Solver::step(const std::vector<Substep>& wanted)
 {
     std::vector<Substep> substeps;
@@ -242,26 +259,21 @@ void Solver::step(const std::vector<Substep>& wanted)
     if (quiet_ % kLookEvery == 0 && quiet_ > 0)
         look_for_rest();
     const bool repels = params_.forces_repulsion > 0.0f;
-    if (!repels && !has_shadow())
+    dense_ = repels || has_shadow();
+    if (!dense_)
         return;
-    const size_t chunks = grid_voxels(params_) / size_t(chunk(device_, params_));
-    const auto blur = [&](const char* box, int axis)
-    {
-        launch("blur_density", fmt::format("-D AXIS={} -D BOX={}", axis, box), chunks);
-        std::swap(buffers_["density"], buffers_["blurred"]);
-    };
     for (int axis = 0; axis < 3 && info_.light_box.w > 0.0f; ++axis)
-        blur("light_box", axis);
+        blur_density("light_box", axis);
     if (!repels)
         return;
     const bool further = info_.push_box.w > 0.0f;
     for (int axis = 0; axis < 3 && further; ++axis)
     {
-        blur("push_box", axis);
+        blur_density("push_box", axis);
         if (axis == 0) // light goes on reading what was there before
             std::swap(buffers_["blurred"], buffers_["lit"]);
     }
-    launch("density_gradient", "", chunks);
+    launch("density_gradient", "", grid_voxels(params_) / size_t(chunk(device_, params_)));
     if (further)
         std::swap(buffers_["density"], buffers_["lit"]);
 }
@@ -284,6 +296,8 @@ void Solver::draw()
     const std::string braided = braids ? "-D BRAIDED " : "";
     if (has_shadow())
     {
+        if (!dense_)
+            make_density();
         const size_t side = size_t(params_.grid_resolution);
         device_.queue.enqueueCopyBuffer(buffer("density"), buffer("occupied"), 0, 0,
                                         grid_voxels(params_) * sizeof(int));

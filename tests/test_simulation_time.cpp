@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -53,6 +56,48 @@ std::string differing(const Bytes& a, const Bytes& b)
         if (bytes != b.at(name))
             names += name + " ";
     return names;
+}
+
+// What light needs besides, where the look has a volume of its own, would be swept for nobody.
+TEST(Time, OnlyTheThesisLightAsksForTheGridOfShadows)
+{
+    for (const char* repulsion : {"forces.repulsion=0", "forces.repulsion=1"})
+    {
+        SCOPED_TRACE(repulsion);
+        const std::string sets = std::string("look.level=auto;") + repulsion;
+        Simulation other(test_device(), small_style(sets));
+        Simulation thesis(test_device(), small_style(sets + ";look.level=kajiya_kay"));
+        for (Simulation* simulation : {&other, &thesis})
+        {
+            simulation->solver().take_times();
+            simulation->step(simulation->hand());
+            simulation->solver().draw();
+        }
+        const auto ran = [](Simulation& simulation)
+        {
+            std::set<std::string> passes;
+            for (const auto& [pass, ms] : simulation.solver().take_times())
+                passes.insert(pass);
+            return passes;
+        };
+        const std::set<std::string> by_other = ran(other), by_thesis = ran(thesis);
+        EXPECT_TRUE(by_thesis.contains("transmittance"));
+        EXPECT_FALSE(by_other.contains("transmittance"));
+        EXPECT_EQ(by_other.contains("clear_density"), std::string(repulsion) == "forces.repulsion=1");
+        EXPECT_EQ(other.solver().optical_depth().bytes(), 0u);
+
+        // Asked for between two steps it is as if it had always been.
+        Hairstyle style = other.style();
+        assign(style, "look.level=kajiya_kay");
+        other.set_style(style);
+        other.solver().draw();
+        EXPECT_EQ(differing(results(other), results(thesis)), "");
+        // Colours that tell something else are lit as the thesis does it, whatever the level.
+        for (const char* set : {"look.level=auto", "render.colors=stretch"})
+            assign(style, set);
+        other.set_style(style);
+        EXPECT_GT(other.solver().optical_depth().bytes(), 0u);
+    }
 }
 
 TEST(Time, EqualInputGivesEqualBytes)
