@@ -79,12 +79,12 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
 }
 
 // Follows the light anew where anything but the camera has changed.
-void Renderer::light(const FrameInput& frame)
+void Renderer::light(const FrameInput& frame, const std::vector<float>& waves)
 {
-    shaded_ = frame.params.look_level != LOOK_KAJIYA_KAY && frame.colors.value.empty();
+    shaded_ = !lit_by_kajiya_kay(frame.params);
     if (!shaded_)
     {
-        look_ = {LOOK_KAJIYA_KAY};
+        look_ = {LOOK_KAJIYA_KAY, 0.0, 0.0, look_.followed};
         chosen_by_.clear();
         return;
     }
@@ -94,7 +94,7 @@ void Renderer::light(const FrameInput& frame)
         shading_ = std::make_unique<Shading>(solver.device());
         lit_by_.clear();
     }
-    const HairParams params = device_params(frame.params);
+    HairParams params = device_params(frame.params);
     HairParams of_light = params;
     of_light.camera_yaw = of_light.camera_pitch = of_light.camera_distance = of_light.camera_fov = 0.0f;
     of_light.camera_target = F4(0, 0, 0, 0);
@@ -107,15 +107,19 @@ void Renderer::light(const FrameInput& frame)
     append(key, frame.lighting.sky);
     const std::vector<char> of_style = key;
     append(key, solver.drawings());
+    append(key, frame.coarse_light);
+    if (frame.coarse_light)
+        params.look_volume = std::max(params.look_volume / 2, int(find_param("look.volume")->min));
     seen_from_.clear();
     if (key == lit_by_)
         return;
     lit_by_.clear(); // what is there is lost if this fails
-    LitScene scene = lit_scene(*frame.simulation);
+    LitScene scene = lit_scene(*frame.simulation, waves);
     scene.params = params;
     scene.lighting = frame.lighting;
     shading_->light(scene);
     look_.light_ms = sum_of(shading_->take_times());
+    ++look_.followed;
     lit_by_ = key;
     choose_level(frame.params, of_style);
 }
