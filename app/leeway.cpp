@@ -37,7 +37,8 @@ void note_frame(Leeway& leeway, double ms, double light_ms, bool dragging)
 {
     ++leeway.frames;
     leeway.fastest = std::min(leeway.fastest, ms);
-    leeway.fastest_light = std::min(leeway.fastest_light, light_ms);
+    if (light_ms > 0.0) // else it was not followed anew
+        leeway.fastest_light = std::min(leeway.fastest_light, light_ms);
     if (!dragging || !leeway.allowed)
     {
         leeway.in_vain = leeway.light_in_vain = false;

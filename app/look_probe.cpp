@@ -3,8 +3,8 @@
 #include "app/look_level.h"
 #include "app/traced/scene.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cstring>
 
 namespace coif
 {
@@ -46,6 +46,21 @@ bool LookProbe::look()
     return true;
 }
 
+// But for the camera.
+static bool same_look(const HairParams& a, const HairParams& b)
+{
+    return std::ranges::all_of(param_table(),
+                               [&](const ParamInfo& info)
+                               {
+                                   float of_a[kMostNumbers] = {}, of_b[kMostNumbers] = {};
+                                   if (info.on_host() || info.group == std::string_view("camera"))
+                                       return true;
+                                   get_numbers(a, info, of_a);
+                                   get_numbers(b, info, of_b);
+                                   return std::ranges::equal(of_a, of_b);
+                               });
+}
+
 static bool same(const Lighting& a, const Lighting& b)
 {
     return a.sky == b.sky && a.suns.size() == b.suns.size() &&
@@ -60,11 +75,7 @@ std::string LookProbe::said(const HairParams& params, const Lighting& lighting) 
 {
     if (said_.empty())
         return {};
-    HairParams now = params;
-    keep_camera(Camera(), now);
-    HairParams then = of_.params;
-    keep_camera(Camera(), then);
-    const bool as_then = std::memcmp(&now, &then, sizeof now) == 0 && same(lighting, of_.lighting);
+    const bool as_then = same_look(params, of_.params) && same(lighting, of_.lighting);
     return said_ + (as_then ? "" : ", before the last change");
 }
 

@@ -88,6 +88,19 @@ TEST(Leeway, light_is_given_first_where_it_takes_a_tenth_and_strands_only_as_far
     EXPECT_EQ(dark.level, 2);
 }
 
+// As where the hand has not moved since the frame before.
+TEST(Leeway, frames_that_light_was_not_followed_in_say_nothing_of_what_it_takes)
+{
+    Leeway leeway;
+    for (int i = 0; i < 9; ++i)
+    {
+        const double light = i % 3 ? (leeway.coarse_light ? 18.0 : 36.0) : 0.0;
+        note_frame(leeway, 60.0 + light, light, true);
+    }
+    EXPECT_TRUE(leeway.coarse_light);
+    EXPECT_FALSE(leeway.light_in_vain);
+}
+
 TEST(Leeway, light_that_a_coarser_volume_hardly_quickens_is_given_back_and_strands_are_tried)
 {
     Leeway leeway;
