@@ -4,6 +4,7 @@
 
 #include "app/look_level.h"
 #include "app/renderer_rings.h"
+#include "app/solids.h"
 #include "sim/error.h"
 
 #include <glm/common.hpp>
@@ -55,7 +56,7 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     {
         const float roots = mesh_vertices_[i + 6];
         add(turned(triple(mesh_vertices_, i) * p.head_scale), normalized(turned(triple(mesh_vertices_, i + 3))),
-            1.0f - roots, glm::mix(rgb(p.head_color), rgb(p.look_root_color) * 0.6f, p.head_scalp_tint * roots), 1.0f);
+            1.0f - roots, skin_albedo(p, roots), 1.0f);
     }
     const std::vector<Capsule> placed = frame.simulation->solver().placed_colliders();
     for (size_t k = placed.size() - frame.simulation->style().host.colliders.size(); k < placed.size(); ++k)
@@ -64,7 +65,7 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
             const glm::vec3 out = triple(sphere_vertices_, i), axis = rgb(placed[k].axis);
             add(out * placed[k].center.w + rgb(placed[k].center) +
                     (glm::dot(out, axis) > 0.0f ? axis : glm::vec3(0.0f)),
-                out, 0.0f, glm::vec3(0.30f, 0.34f, 0.40f), 0.0f);
+                out, 0.0f, kObstacleAlbedo, 0.0f);
         }
     for (const Ring& ring : rings_of(frame))
     {
