@@ -1,9 +1,9 @@
 # Pictures of coif's strands by another path tracer: Cycles, in Blender 3.4 (Debian 12: apt-get install
 # --no-install-recommends blender), of the scenes that scenes.txt lists. From the repository's root:
 #
-#     blender -b --factory-startup -P tests/cycles/reference.py -- build/coif 256
+#     blender -b --factory-startup -P tests/cycles/reference.py -- build/coif 192
 #
-# with the program and the samples a pixel; half an hour on two cores. Each becomes NAME.hdr beside this script: light
+# with the program and the samples a pixel; a quarter of an hour on two cores. Each becomes NAME.hdr beside this script: light
 # before any display transform, with nothing behind the head. They are of the strands as coif draws them: where those
 # change, so must these.
 import array, math, os, struct, subprocess, sys, tempfile, tomllib
@@ -12,6 +12,7 @@ from mathutils import Matrix, Vector
 
 WIDTH, HEIGHT = 160, 184
 POINTS = 33  # of a strand
+TILT = 2.0  # degrees, the default of look.scale_tilt, and in its sign: by the other one sparse black hair is a third darker
 here = os.path.dirname(os.path.abspath(__file__))
 root = os.path.dirname(os.path.dirname(here))
 coif, samples = os.path.abspath(sys.argv[sys.argv.index('--') + 1]), int(sys.argv[sys.argv.index('--') + 2])
@@ -203,7 +204,6 @@ def write_hdr(file, pixels):
                 out.write(packed(bytes(p[channel] for p in row)))
 
 
-TILT = 2.0
 sets, scenes = read_scenes()
 camera = tomllib.loads('\n'.join(set for set in sets if set.startswith('camera.')))['camera']
 for name, style, lights, eumelanin, pheomelanin in scenes:
