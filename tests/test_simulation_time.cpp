@@ -100,6 +100,34 @@ TEST(Time, OnlyTheThesisLightAsksForTheGridOfShadows)
     }
 }
 
+// A light that is dragged about it is followed by what shades it, and wakes it only for the thesis' own shadows.
+TEST(Time, HairThatSleepsIsNotWokenByALightThatItsStepsDoNotRead)
+{
+    for (const char* level : {"auto", "kajiya_kay"})
+    {
+        Simulation simulation(test_device(),
+                              small_style(std::string("forces.wind=[0, 0, 0];forces.repulsion=0;look.level=") + level));
+        for (int i = 0; i < 600 && (i < 2 || !simulation.solver().asleep()); ++i)
+            simulation.step(simulation.hand());
+        ASSERT_TRUE(simulation.solver().asleep());
+        simulation.solver().draw();
+        simulation.solver().draw();
+        const long drawings = simulation.solver().drawings();
+        Hairstyle style = simulation.style();
+        assign(style, "look.light_direction=[-1, 0.2, 0.3]");
+        simulation.set_style(style);
+        simulation.step(simulation.hand());
+        simulation.solver().draw();
+        const bool woken = std::string(level) == "kajiya_kay";
+        EXPECT_EQ(simulation.solver().asleep(), !woken) << level;
+        EXPECT_EQ(simulation.solver().drawings() > drawings, woken) << level;
+        assign(style, "bending.droop=3");
+        simulation.set_style(style);
+        simulation.step(simulation.hand());
+        EXPECT_FALSE(simulation.solver().asleep()) << level;
+    }
+}
+
 TEST(Time, EqualInputGivesEqualBytes)
 {
     for (const char* kind : {"solver.kind=direct", "solver.kind=pbd"})
