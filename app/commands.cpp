@@ -70,7 +70,7 @@ static int run_keys()
         const bool varies = info.scope == Scope::STRAND && !info.on_host();
         fmt::print("{:<28} {:<13} {:<20} {:<28} {}{}{}\n", info.path(), kind_name(info.kind),
                    info.kind == Kind::LIST ? "" : value_text(defaults, info), range, info.help,
-                   reader.empty() ? "" : fmt::format(" Only the {} solver reads it.", reader),
+                   reader.empty() ? "" : fmt::format(" Read only where {}.", reader),
                    varies ? " May vary over the scalp." : "");
     }
     return 0;
@@ -129,6 +129,11 @@ static int run_shot(const Options& options, const ShotOptions& shot, const Seque
 // With more than one process each style is a task, as coif jobs would write it.
 static int run_sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, int processes)
 {
+    if (wanted.levels && processes > 1)
+        throw fail("-j {}: levels that are drawn at once disturb each other's cost; leave one of --levels and -j out",
+                   processes);
+    if (wanted.levels)
+        return level_sheet(options, cell, wanted);
     if (processes == 1 || wanted.styles.size() == 1)
         return sheet(options, cell, wanted);
     std::optional<RunHere> done;
@@ -281,6 +286,11 @@ static int command(std::vector<std::string> words, bool only_look)
     sheet_command->add_option("--size", cell_size, "WIDTHxHEIGHT of each style's picture, pixels")
         ->capture_default_str();
     sheet_command->add_option("--columns", sheeted.columns, "Styles in a row");
+    sheet_command
+        ->add_option("--levels", sheeted.levels,
+                     "Each style at every level of the look, with its cost and its error against light that is traced, "
+                     "with so many samples a pixel")
+        ->check(CLI::Range(1, kMostTraced));
     const auto with_processes = [&](CLI::App* command, const char* what)
     { command->add_option("-j,--jobs", processes, what)->capture_default_str()->check(CLI::Range(1, 1024)); };
     with_processes(sheet_command, "Styles drawn at a time, each by a process of its own");
@@ -300,6 +310,10 @@ static int command(std::vector<std::string> words, bool only_look)
         ->excludes("--csv");
     report_command->add_flag("--untimed", wanted.untimed, "No times in it, so that equal work gives equal bytes")
         ->needs("--row");
+    report_command->add_option(
+        "--traced", wanted.traced,
+        "Samples a pixel of a small traced picture that the levels of the look are held against, "
+        "for some seconds at most; 0 leaves it out");
     report_command->add_option("-o,--output", options.output, "File to write instead of the terminal");
 
     AdviseOptions advised;
@@ -318,7 +332,7 @@ static int command(std::vector<std::string> words, bool only_look)
     CLI::App* measure_command =
         with_device(app.add_subcommand("measure", "Measure accuracy against cost: tables and plots into a folder"));
     measure_command->add_flag("--quick", measured.quick,
-                              "Fewer points: under a minute instead of a quarter of an hour");
+                              "Fewer points: under a minute instead of half an hour and more");
     measure_command->add_option("--only", measured.only, "Scenes to run, separated by commas: A12,picture")
         ->delimiter(',');
     measure_command->add_flag_callback(

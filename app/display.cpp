@@ -22,8 +22,7 @@ using glm::vec3, glm::abs, glm::clamp, glm::greaterThan, glm::lessThanEqual, glm
 
 Display display_of(const HairParams& params)
 {
-    constexpr int kKajiyaKay = 1;
-    const int by_itself = params.look_level == kKajiyaKay ? DISPLAY_NONE : DISPLAY_NEUTRAL;
+    const int by_itself = params.look_level == LOOK_KAJIYA_KAY ? DISPLAY_NONE : DISPLAY_NEUTRAL;
     return {std::exp2(params.look_exposure), params.look_display == 0 ? by_itself : params.look_display};
 }
 

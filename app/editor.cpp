@@ -396,6 +396,7 @@ bool Editor::frame()
     guarded([&] { advance(seconds); });
     guarded([&] { look_at_files(); });
     look_at_export();
+    guarded([&] { tell_of_look(); });
     if (browser_.shown && thumbnails_ && thumbnails_->work())
         redraw_ = std::max(redraw_, kRedraw);
     keep_settings();
@@ -451,6 +452,7 @@ bool Editor::frame()
             other.samples = input.samples;
             other.before = input.before;
             other.kept = input.kept;
+            other.coarse_light = input.coarse_light;
             trial_.apply(other);
             beside_.renderer->show(other, wide, pixels_high, wide);
         });
@@ -466,6 +468,7 @@ bool Editor::frame()
 void Editor::refine(FrameInput& input, bool still)
 {
     input.kept = leeway_.share();
+    input.coarse_light = leeway_.coarse_light;
     input.before = still ? refined_ : 0;
     input.samples = still ? kAtOnce : 1;
     refined_ = still ? refined_ + kAtOnce : 0;
@@ -474,9 +477,11 @@ void Editor::refine(FrameInput& input, bool still)
 // After a frame that took so long, ms.
 void Editor::give_way(double ms)
 {
-    const int level = leeway_.level;
-    note_frame(leeway_, ms, held_.what != Grab::NONE || ImGui::IsAnyItemActive());
-    if (leeway_.level > 0 || leeway_.level != level)
+    const bool gave = leeway_.gives();
+    const LookCost& look = renderer_->look();
+    const double light_ms = std::exchange(followed_, look.followed) != look.followed ? look.light_ms : 0.0;
+    note_frame(leeway_, ms, light_ms, held_.what != Grab::NONE || ImGui::IsAnyItemActive());
+    if (leeway_.gives() || gave)
         redraw_ = std::max(redraw_, 1);
 }
 

@@ -4,6 +4,7 @@
 #include "app/history.h"
 #include "app/leeway.h"
 #include "app/light_globe.h"
+#include "app/look_probe.h"
 #include "app/method_trial.h"
 #include "app/options.h"
 #include "app/panel.h"
@@ -201,6 +202,7 @@ class Editor
     void show_lights(bool on); // while the key is held
     void take_own_lights();    // of the file that look.lights names
     void draw_lights();
+    void tell_of_look();
     void draw_lights_dialog();
     void save_lights_as(const std::string& file); // in the folder `lights` beside the style
     void show_export(bool on);
@@ -234,8 +236,10 @@ class Editor
     std::unique_ptr<Waiting> waiting_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
-    MethodTrial trial_;                          // of the ways to draw strands
+    MethodTrial trial_; // of the ways to draw strands
+    LookProbe look_probe_;
     Leeway leeway_;                              // while something is dragged
+    long followed_ = 0;                          // LookCost::followed as of the last frame
     std::filesystem::file_time_type known_time_; // of the style's file when it was last read or written
     Autosave autosave_;
     std::vector<Recovery> recoveries_; // that are still offered

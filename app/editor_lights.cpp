@@ -2,6 +2,7 @@
 // files that they are kept in.
 #include "app/editor.h"
 
+#include "app/look_level.h"
 #include "sim/error.h"
 
 #include <imgui.h>
@@ -169,10 +170,26 @@ void Editor::draw_lights()
     draw.PopClipRect();
 }
 
+// For the panel: the level that is shown, its cost, and its error if that was asked for.
+void Editor::tell_of_look()
+{
+    if (look_probe_.look())
+        redraw_ = std::max(redraw_, kRedraw);
+    const LookCost& look = renderer_->look();
+    panel_.look_cost = look.level <= LOOK_KAJIYA_KAY
+                           ? "kajiya_kay: lit as it is drawn"
+                           : fmt::format("{}: {:.1f} ms of light, {:.1f} of colours; should leave out {:.0f} %",
+                                         level_name(look.level), look.light_ms, look.shade_ms, 100.0 * look.left_out);
+    panel_.look_error = look_probe_.said(simulation_->params(), simulation_->lighting());
+    panel_.look_measured = look_probe_.busy();
+}
+
 // What the panel's buttons ask for.
 void Editor::draw_lights_dialog()
 {
     const auto asked = std::exchange(panel_.asked, PanelState::NOTHING);
+    if (asked == PanelState::MEASURE_LOOK)
+        guarded([&] { look_probe_.begin(*renderer_, *simulation_, camera_, std::max(renderer_->look().level, 1)); });
     if (asked == PanelState::EDIT_LIGHTS)
     {
         take_own_lights();

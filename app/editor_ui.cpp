@@ -207,8 +207,9 @@ void Editor::draw_tools()
     }
     ImGui::SameLine();
     ImGui::Checkbox("give way", &leeway_.allowed);
-    explain(fmt::format("Draws fewer and wider strands while you drag something and a frame takes longer than {:.0f} "
-                        "ms; they come back in steps when the hand rests. Files never know of it.",
+    explain(fmt::format("Follows light less finely and draws fewer and wider strands while you drag something and a "
+                        "frame takes longer than {:.0f} ms; they come back in steps when the hand rests. Files never "
+                        "know of it.",
                         kFrameWanted));
     if (button("Screenshot", "p, F12: what the view shows, without windows, into the folder that coif was started in"))
         screenshot();

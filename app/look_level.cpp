@@ -1,5 +1,6 @@
 #include "app/look_level.h"
 
+#include "sim/median.h"
 #include "sim/tied_hair.h"
 #include "sim/wave.h"
 
@@ -11,14 +12,16 @@
 namespace coif
 {
 
-LitScene lit_scene(const Simulation& simulation)
+LitScene lit_scene(const Simulation& simulation) { return lit_scene(simulation, wave_table(simulation.params())); }
+
+LitScene lit_scene(const Simulation& simulation, std::vector<float> waves)
 {
     const HairParams& p = simulation.params();
     const Solver& solver = simulation.solver();
     LitScene scene;
     scene.solver = &solver;
     scene.params = device_params(p);
-    scene.waves = wave_table(p);
+    scene.waves = std::move(waves);
     scene.braids = braid_values(solver.groom());
     scene.lighting = simulation.lighting();
     scene.low = glm::vec3(INFINITY);
@@ -55,6 +58,35 @@ int chosen_level(const HairParams& params, const std::vector<LevelError>& errors
         if (error.left_out <= 0.01 * double(params.look_tolerance))
             return error.level;
     return LOOK_DUAL_SCATTERING;
+}
+
+PassTimes time_level(Shading& shading, const LitScene& scene, glm::vec3 eye, int level)
+{
+    shading.take_times();
+    shading.light(scene);
+    PassTimes times = shading.take_times();
+    const double light = sum_of(times);
+    shading.shade(eye, level, 1.0f);
+    const double shade = sum_of(shading.take_times());
+    times.insert(times.begin(), {{"frame", light + shade}, {"look_shade", shade}});
+    return times;
+}
+
+LevelCost cost_of_level(Shading& shading, const LitScene& scene, glm::vec3 eye, int level)
+{
+    constexpr int kTimes = 5;
+    if (level == LOOK_KAJIYA_KAY)
+        return {};
+    std::vector<double> light, shade;
+    for (int i = 0; i <= kTimes; ++i)
+    {
+        const PassTimes times = time_level(shading, scene, eye, level);
+        if (i == 0)
+            continue; // it compiles
+        shade.push_back(times[1].second);
+        light.push_back(times[0].second - times[1].second);
+    }
+    return {median(light), median(shade)};
 }
 
 const char* level_name(int level)

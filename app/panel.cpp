@@ -359,8 +359,7 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
             ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
             ImGui::TextUnformatted(info.help);
             if (unread)
-                ImGui::TextColored(kChanged, "%s",
-                                   fmt::format("Only the {} solver reads this.", only_reader(info)).c_str());
+                ImGui::TextColored(kChanged, "%s", fmt::format("Read only where {}.", only_reader(info)).c_str());
             ImGui::TextDisabled("%s", range_text(info, defaults).c_str());
             if (info.kind == Kind::FLOAT || info.kind == Kind::INT)
                 ImGui::TextDisabled("ctrl-click to type");
@@ -373,6 +372,8 @@ bool draw_params_panel(Hairstyle& style, PanelState& state)
         }
         if (lights)
             draw_light_buttons(style, state);
+        if (path == "look.level")
+            draw_look_cost(state);
         ImGui::PopID();
     }
     if (!found)

@@ -35,8 +35,11 @@ struct PanelState
     {
         NOTHING,
         EDIT_LIGHTS,
-        SAVE_LIGHTS
-    } asked = NOTHING; // of the lights, by a button
+        SAVE_LIGHTS,
+        MEASURE_LOOK
+    } asked = NOTHING;                 // of the lights and the look, by a button
+    std::string look_cost, look_error; // of the level that is shown: told under look.level; empty: nothing is known
+    bool look_measured = false;        // just now
 };
 
 // One widget for each parameter, grouped as in kernels/params.def, and the colliders' list. What differs from the

@@ -52,4 +52,23 @@ void draw_light_buttons(const Hairstyle& style, PanelState& state)
     explain("Writes lights and sky as they are now to a file that other styles can name too.");
 }
 
+void draw_look_cost(PanelState& state)
+{
+    if (state.look_cost.empty())
+        return;
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextDisabled("%s", state.look_cost.c_str());
+    if (!state.look_error.empty())
+        ImGui::TextDisabled("%s", state.look_error.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::BeginDisabled(state.look_measured);
+    if (ImGui::SmallButton(state.look_measured ? "is measured..." : "measure its error"))
+        state.asked = PanelState::MEASURE_LOOK;
+    state.places["measure look"] = last_widget();
+    ImGui::EndDisabled();
+    explain(
+        "Follows light through the strands as they lie now, in a small picture, some seconds beside the window, and "
+        "says how much of it this level has (red, green, blue) and how far it is off on the whole.");
+}
+
 } // namespace coif

@@ -11,4 +11,7 @@ bool draw_light_chooser(Hairstyle& style, PanelState& state, const char* id);
 // Buttons that ask for its lights to become the style's own, and for those on screen to be saved as a file.
 void draw_light_buttons(const Hairstyle& style, PanelState& state);
 
+// Under look.level: what the level that is shown costs, and a button that measures its error.
+void draw_look_cost(PanelState& state);
+
 } // namespace coif

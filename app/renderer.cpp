@@ -4,6 +4,7 @@
 #include "app/lens.h"
 #include "app/rasteriser.h"
 #include "app/shading.h"
+#include "app/solids.h"
 #include "sim/error.h"
 
 #include <SDL.h>
@@ -325,7 +326,7 @@ void Renderer::draw_solids(const FrameInput& frame)
     next_colors(mesh_vertices_.size() / 7);
     glDrawElements(GL_TRIANGLES, mesh_index_count_, GL_UNSIGNED_INT, nullptr);
 
-    glUniform4f(program.uniform("albedo"), 0.30f, 0.34f, 0.40f, 0.0f);
+    glUniform4f(program.uniform("albedo"), kObstacleAlbedo.x, kObstacleAlbedo.y, kObstacleAlbedo.z, 0.0f);
     glUniform1i(program.uniform("on_head"), 0);
     glBindVertexArray(sphere_array_);
     // The head's own colliders come first and stand for its mesh; the style's obstacles after them are shown.

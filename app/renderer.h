@@ -44,13 +44,14 @@ struct FrameInput
     HairParams params; // as authored
     Lighting lighting;
     Camera camera;
-    StrandColors colors;      // instead of the hair's own, where render.colors asks for them
-    bool transparent = false; // no backdrop: alpha instead
-    int samples = 1;          // jittered pictures that are averaged
-    int before = 0;           // pictures of the same input and size that show() has drawn last, averaged in as well
-    int first = -1;           // of the places in pixel and lens (app/lens.h), which of many pictures this is; -1: the
-                              // only one, so that one sample alone is in the middle of both
-    float kept = 1.0f;        // share of the strands that are drawn, each as much wider
+    StrandColors colors;       // instead of the hair's own, where render.colors asks for them
+    bool transparent = false;  // no backdrop: alpha instead
+    int samples = 1;           // jittered pictures that are averaged
+    int before = 0;            // pictures of the same input and size that show() has drawn last, averaged in as well
+    int first = -1;            // of the places in pixel and lens (app/lens.h), which of many pictures this is; -1: the
+                               // only one, so that one sample alone is in the middle of both
+    float kept = 1.0f;         // share of the strands that are drawn, each as much wider
+    bool coarse_light = false; // through half as fine a volume
 
     int light_resolution() const; // side of optical_depth; 0 without shadow
 };
@@ -63,6 +64,7 @@ struct LookCost
 {
     int level = 0;                         // of look.level
     double light_ms = 0.0, shade_ms = 0.0; // when either was last needed
+    long followed = 0;                     // pictures that light was followed anew for
     double left_out = 0.0;                 // share of the light in the hair that this level is expected to leave out
 };
 
@@ -124,7 +126,7 @@ class Renderer
     void draw_solids(const FrameInput& frame);
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     // For the levels above Kajiya-Kay: renderer_look.cpp.
-    void light(const FrameInput& frame);
+    void light(const FrameInput& frame, const std::vector<float>& waves);
     void choose_level(const HairParams& params, const std::vector<char>& of_style);
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;

@@ -4,6 +4,7 @@
 
 #include "app/look_level.h"
 #include "app/renderer_rings.h"
+#include "app/solids.h"
 #include "sim/error.h"
 
 #include <glm/common.hpp>
@@ -55,7 +56,7 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     {
         const float roots = mesh_vertices_[i + 6];
         add(turned(triple(mesh_vertices_, i) * p.head_scale), normalized(turned(triple(mesh_vertices_, i + 3))),
-            1.0f - roots, glm::mix(rgb(p.head_color), rgb(p.look_root_color) * 0.6f, p.head_scalp_tint * roots), 1.0f);
+            1.0f - roots, skin_albedo(p, roots), 1.0f);
     }
     const std::vector<Capsule> placed = frame.simulation->solver().placed_colliders();
     for (size_t k = placed.size() - frame.simulation->style().host.colliders.size(); k < placed.size(); ++k)
@@ -64,7 +65,7 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
             const glm::vec3 out = triple(sphere_vertices_, i), axis = rgb(placed[k].axis);
             add(out * placed[k].center.w + rgb(placed[k].center) +
                     (glm::dot(out, axis) > 0.0f ? axis : glm::vec3(0.0f)),
-                out, 0.0f, glm::vec3(0.30f, 0.34f, 0.40f), 0.0f);
+                out, 0.0f, kObstacleAlbedo, 0.0f);
         }
     for (const Ring& ring : rings_of(frame))
     {
@@ -79,12 +80,12 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
 }
 
 // Follows the light anew where anything but the camera has changed.
-void Renderer::light(const FrameInput& frame)
+void Renderer::light(const FrameInput& frame, const std::vector<float>& waves)
 {
-    shaded_ = frame.params.look_level != LOOK_KAJIYA_KAY && frame.colors.value.empty();
+    shaded_ = !lit_by_kajiya_kay(frame.params);
     if (!shaded_)
     {
-        look_ = {LOOK_KAJIYA_KAY};
+        look_ = {LOOK_KAJIYA_KAY, 0.0, 0.0, look_.followed};
         chosen_by_.clear();
         return;
     }
@@ -94,7 +95,7 @@ void Renderer::light(const FrameInput& frame)
         shading_ = std::make_unique<Shading>(solver.device());
         lit_by_.clear();
     }
-    const HairParams params = device_params(frame.params);
+    HairParams params = device_params(frame.params);
     HairParams of_light = params;
     of_light.camera_yaw = of_light.camera_pitch = of_light.camera_distance = of_light.camera_fov = 0.0f;
     of_light.camera_target = F4(0, 0, 0, 0);
@@ -107,15 +108,19 @@ void Renderer::light(const FrameInput& frame)
     append(key, frame.lighting.sky);
     const std::vector<char> of_style = key;
     append(key, solver.drawings());
+    append(key, frame.coarse_light);
+    if (frame.coarse_light)
+        params.look_volume = std::max(params.look_volume / 2, int(find_param("look.volume")->min));
     seen_from_.clear();
     if (key == lit_by_)
         return;
     lit_by_.clear(); // what is there is lost if this fails
-    LitScene scene = lit_scene(*frame.simulation);
+    LitScene scene = lit_scene(*frame.simulation, waves);
     scene.params = params;
     scene.lighting = frame.lighting;
     shading_->light(scene);
     look_.light_ms = sum_of(shading_->take_times());
+    ++look_.followed;
     lit_by_ = key;
     choose_level(frame.params, of_style);
 }

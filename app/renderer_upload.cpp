@@ -228,7 +228,7 @@ void Renderer::upload(const FrameInput& frame)
 
     upload_mesh(frame);
     upload_ground(frame);
-    light(frame);
+    light(frame, waves);
     if (params.render_show == 1)
         return;
     if (method_of(params) == BY_OPENCL)

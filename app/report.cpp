@@ -2,9 +2,9 @@
 
 #include "app/csv.h"
 #include "app/json.h"
-#include "app/look_level.h"
 #include "app/progress.h"
-#include "app/renderer.h"
+#include "app/report_look.h"
+#include "app/traced/shoot.h"
 #include "sim/error.h"
 #include "sim/health.h"
 #include "sim/median.h"
@@ -17,6 +17,7 @@
 namespace coif
 {
 
+static constexpr int kReportTraced = 16;  // samples a pixel
 static constexpr size_t kMostNamed = 100; // of the strands that were reset, the first so many are named
 
 namespace
@@ -40,59 +41,14 @@ static std::string json(const std::vector<Bad>& all)
     return fmt::format("[{}]", fmt::join(objects, ", "));
 }
 
-namespace
-{
-struct LookReport // of the levels above Kajiya-Kay, for the hair as it lies at the end
-{
-    int chosen = LOOK_KAJIYA_KAY;
-    double light_ms = 0.0; // for all of them
-    std::vector<LevelError> levels;
-    std::vector<double> ms; // of each
-};
-} // namespace
-
-static LookReport report_look(Simulation& simulation)
-{
-    constexpr int kTimes = 5;
-    LookReport look;
-    look.chosen = simulation.params().look_level;
-    if (look.chosen == LOOK_KAJIYA_KAY)
-        return look;
-    const LitScene scene = lit_scene(simulation);
-    Shading shading(simulation.solver().device());
-    const glm::vec3 eye(camera_of(simulation.params()).position() - simulation.solver().head().origin);
-    shading.light(scene);
-    look.levels = level_errors(shading);
-    look.chosen = chosen_level(simulation.params(), look.levels);
-    std::vector<double> lights;
-    for (int i = 0; i < kTimes; ++i)
-    {
-        shading.take_times();
-        shading.light(scene);
-        lights.push_back(sum_of(shading.take_times()));
-    }
-    look.light_ms = median(lights);
-    for (const LevelError& level : look.levels)
-    {
-        std::vector<double> shades;
-        for (int i = 0; i <= kTimes; ++i)
-        {
-            shading.shade(eye, level.level, 1.0f);
-            const double ms = sum_of(shading.take_times());
-            if (i > 0) // the first compiles
-                shades.push_back(ms);
-        }
-        look.ms.push_back(median(shades));
-    }
-    return look;
-}
-
 int report(const Options& options, const ReportOptions& wanted)
 {
     if (!(wanted.fps >= 1.0 && wanted.fps <= 1000.0))
         throw fail("--fps {}: expected 1 to 1000 frames a second", wanted.fps);
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0) || !(wanted.settle >= 0.0 && wanted.settle <= 3600.0))
         throw fail("--seconds and --settle must lie within an hour");
+    if (wanted.traced && (*wanted.traced < 0 || *wanted.traced > kMostTraced))
+        throw fail("--traced {}: expected 0, for none, to {} samples a pixel", *wanted.traced, kMostTraced);
     const Motion motion = find_motion(options.motion);
     const Hairstyle style = load_style(options);
     const Device device = open_device(options);
@@ -143,7 +99,10 @@ int report(const Options& options, const ReportOptions& wanted)
         if (f % 10 == 9)
             progress.say(fmt::format("frame {} of {}", f + 1, frames));
     }
-    const LookReport look = report_look(simulation);
+    // Where nobody looks at the light it need not be followed for seconds.
+    const bool usual = !wanted.row && !wanted.csv && simulation.params().look_level != LOOK_KAJIYA_KAY;
+    const int traced = wanted.traced.value_or(usual ? kReportTraced : 0);
+    const LookReport look = wanted.csv ? LookReport() : report_look(simulation, traced, progress);
     progress.clear();
     // Measured on this motion, where a tolerance was asked for.
     const Quality& quality = simulation.quality();
@@ -160,14 +119,14 @@ int report(const Options& options, const ReportOptions& wanted)
     if (wanted.csv)
         text = csv;
     else if (wanted.row)
-        text = fmt::format("style,settings,motion,seconds,guides,strands,nodes,finite,stretch_max,stretch_mean,"
-                           "penetration_max_mm,drawn_penetration_max_mm,resets,ms_frame_median\n"
-                           "{},{},{},{:.6g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
-                           csv_text(style.name()), csv_text(fmt::format("{}", fmt::join(options.sets, " "))),
-                           csv_text(motion.name), options.seconds, groom.guides, groom.drawn.size(), groom.nodes,
-                           worst.finite, worst.stretch_max, stretch_mean, 1e3 * worst.penetration_max,
-                           1e3 * worst.drawn_penetration_max, reset_count,
-                           wanted.untimed ? "" : fmt::format("{:.6g}", median(frame_ms)));
+        text = fmt::format(
+            "style,settings,motion,seconds,guides,strands,nodes,finite,stretch_max,stretch_mean,"
+            "penetration_max_mm,drawn_penetration_max_mm,resets,ms_frame_median,{}\n"
+            "{},{},{},{:.6g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}\n",
+            kLookColumns, csv_text(style.name()), csv_text(fmt::format("{}", fmt::join(options.sets, " "))),
+            csv_text(motion.name), options.seconds, groom.guides, groom.drawn.size(), groom.nodes, worst.finite,
+            worst.stretch_max, stretch_mean, 1e3 * worst.penetration_max, 1e3 * worst.drawn_penetration_max,
+            reset_count, wanted.untimed ? "" : fmt::format("{:.6g}", median(frame_ms)), row_of(look, wanted.untimed));
     else if (wanted.json)
     {
         std::vector<std::string> passes, ran;
@@ -176,11 +135,6 @@ int report(const Options& options, const ReportOptions& wanted)
             ran.push_back(fmt::format("{}: {}", json_text(pass), spent.size()));
             passes.push_back(fmt::format("{}: {}", json_text(pass), json_number(median(spent))));
         }
-        std::vector<std::string> levels;
-        for (size_t i = 0; i < look.levels.size(); ++i)
-            levels.push_back(fmt::format("{{\"level\": {}, \"ms_shade\": {}, \"left_out\": {}}}",
-                                         json_text(level_name(look.levels[i].level)), json_number(look.ms[i]),
-                                         json_number(look.levels[i].left_out)));
         const double predicted = quality.rungs.empty() ? NAN : quality.time_error;
         text = fmt::format(
             "{{\"style\": {}, \"motion\": {}, \"device\": {}, \"guides\": {}, \"strands\": {}, \"nodes\": "
@@ -188,16 +142,13 @@ int report(const Options& options, const ReportOptions& wanted)
             "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"bad_strands\": {}, \"dropped_steps\": {}, "
             "\"ms_frame_median\": {}, "
             "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"blocks\": {}, \"blocks_awake\": {}, "
-            "\"quality\": {}, "
-            "\"substeps_error_predicted\": {}, \"substeps_error_measured\": {}, \"look\": {{\"level\": {}, "
-            "\"ms_light\": {}, \"levels\": [{}]}}}}\n",
+            "\"quality\": {}, \"substeps_error_predicted\": {}, \"substeps_error_measured\": {}, \"look\": {}}}\n",
             json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
             groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
             json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
             json(bad), simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "),
             fmt::join(ran, ", "), simulation.solver().asleep(), groom.blocks, simulation.solver().blocks_awake(),
-            json_text(quality.said), json_number(predicted), json_number(time_error),
-            json_text(level_name(look.chosen)), json_number(look.light_ms), fmt::join(levels, ", "));
+            json_text(quality.said), json_number(predicted), json_number(time_error), json_of(look));
     }
     else
     {
@@ -218,12 +169,7 @@ int report(const Options& options, const ReportOptions& wanted)
         for (const auto& [pass, spent] : pass_ms)
             text +=
                 fmt::format("    {:<20} {:.3f} ms, in {} of {} frames\n", pass, median(spent), spent.size(), frames);
-        text += fmt::format("  look         {}\n", level_name(look.chosen));
-        if (!look.levels.empty())
-            text += fmt::format("    light               {:.2f} ms, whatever the level\n", look.light_ms);
-        for (size_t i = 0; i < look.levels.size(); ++i)
-            text += fmt::format("    {:<19} {:.2f} ms, leaves out about {:.0f} % of the light in the hair\n",
-                                level_name(look.levels[i].level), look.ms[i], 100.0 * look.levels[i].left_out);
+        text += text_of(look);
         if (simulation.solver().asleep())
             text += "  asleep: at rest, nothing runs\n";
         else

@@ -1,6 +1,8 @@
 #pragma once
 #include "app/options.h"
 
+#include <optional>
+
 namespace coif
 {
 
@@ -11,6 +13,9 @@ struct ReportOptions
     bool json = false, csv = false;
     bool row = false;     // one CSV line with a head
     bool untimed = false; // without times in it
+    // Samples a pixel of a small traced picture that the levels of the look are held against; 0: none. Unsaid: a few,
+    // but none for a row or a CSV, or for hair that is lit as the thesis does it.
+    std::optional<int> traced;
 };
 
 // Plays a motion and says how the hair and the clock came through it. Returns the exit status: 1 if anything was not

@@ -11,16 +11,6 @@
 namespace coif
 {
 
-// look.level
-enum LookLevel
-{
-    LOOK_AUTO,
-    LOOK_KAJIYA_KAY,
-    LOOK_KARIS,
-    LOOK_FAR_FIELD,
-    LOOK_DUAL_SCATTERING
-};
-
 // What there is to be lit. Positions are relative to the head's origin, m.
 struct LitScene
 {

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace coif
 {
 
-static constexpr Shade kPage = {24, 26, 30}, kName = {226, 228, 232}, kFailed = {240, 130, 110},
-                       kNothing = {38, 41, 46};
+static constexpr Shade kName = {226, 228, 232}, kFailed = {240, 130, 110}, kNothing = {38, 41, 46};
 static constexpr double kMostPixels = 8192.0 * 8192.0; // as a shot's; 256 MB
 static constexpr double kLongestSide = 65535.0;
 
@@ -29,7 +29,7 @@ static int good_columns(int cells)
     return best;
 }
 
-SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int cell_height)
+SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int cell_height, int lines)
 {
     if (columns && *columns < 1)
         throw fail("--columns {}: expected 1 or more", *columns);
@@ -38,6 +38,7 @@ SheetLayout lay_out(int cells, std::optional<int> columns, int cell_width, int c
     at.rows = (cells + at.columns - 1) / at.columns;
     at.cell_width = cell_width;
     at.cell_height = cell_height;
+    at.lines = lines;
     const int smaller = std::min(cell_width, cell_height);
     at.gap = std::max(2, smaller / 40);
     at.letters = std::clamp(smaller / 16, 11, 64);
@@ -95,8 +96,11 @@ void put_cell(Image& page, const SheetLayout& at, int cell, const Image* picture
         write_centered(page, line_of("no picture", at.letters, at.cell_width), x, at.cell_width,
                        y + (at.cell_height - at.letters) / 2, kFailed);
     }
-    write_centered(page, line_of(label, at.letters, at.cell_width), x, at.cell_width,
-                   y + at.cell_height + at.letters / 2, picture ? kName : kFailed);
+    std::istringstream lines(label);
+    std::string line;
+    for (int below = y + at.cell_height + at.letters / 2; std::getline(lines, line); below += at.line_height())
+        write_centered(page, line_of(line, at.letters, at.cell_width), x, at.cell_width, below,
+                       picture ? kName : kFailed);
 }
 
 int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& wanted, const DrawStyle& draw)

@@ -56,14 +56,46 @@ const char* effect_name(Effect effect)
     return names[int(effect)];
 }
 
+bool lit_by_kajiya_kay(const HairParams& params)
+{
+    return params.look_level == LOOK_KAJIYA_KAY || params.render_colors != 0;
+}
+
 bool is_read(const ParamInfo& info, const HairParams& params)
 {
-    return info.read_by == ReadBy::ALL || int(info.read_by) == params.solver_kind + 1;
+    const bool above = params.look_level != LOOK_KAJIYA_KAY, melanin = params.look_pigment != 0;
+    switch (info.read_by)
+    {
+    case ReadBy::DIRECT:
+        return params.solver_kind == 0;
+    case ReadBy::PBD:
+        return params.solver_kind == 1;
+    case ReadBy::THESIS:
+        return lit_by_kajiya_kay(params);
+    case ReadBy::FIBRE:
+        return above;
+    case ReadBy::AUTO:
+        return params.look_level == LOOK_AUTO;
+    case ReadBy::MELANIN:
+        return melanin;
+    case ReadBy::AROUND:
+        return above || melanin;
+    default:
+        return true;
+    }
 }
 
 std::string only_reader(const ParamInfo& info)
 {
-    return info.read_by == ReadBy::ALL ? "" : param_labels(*find_param("solver.kind"))[size_t(info.read_by) - 1];
+    static const char* const readers[] = {"",
+                                          "solver.kind is direct",
+                                          "solver.kind is pbd",
+                                          "look.level is kajiya_kay",
+                                          "look.level is not kajiya_kay",
+                                          "look.level is auto",
+                                          "look.pigment is melanin",
+                                          "look.level is not kajiya_kay, or look.pigment is melanin"};
+    return readers[int(info.read_by)];
 }
 
 const ParamInfo* find_param(std::string_view path)

@@ -54,11 +54,26 @@ enum class Effect
     REGROW,
     REBUILD
 };
-enum class ReadBy // ALL, or a choice of solver.kind and one more
+enum class ReadBy
 {
     ALL,
     DIRECT,
-    PBD
+    PBD,
+    THESIS,
+    FIBRE,
+    AUTO,
+    MELANIN,
+    AROUND
+};
+
+// look.level
+enum LookLevel
+{
+    LOOK_AUTO,
+    LOOK_KAJIYA_KAY,
+    LOOK_KARIS,
+    LOOK_FAR_FIELD,
+    LOOK_DUAL_SCATTERING
 };
 
 constexpr int kMostNumbers = 4; // of a parameter
@@ -107,10 +122,13 @@ const char* kind_name(Kind kind);
 const char* scope_name(Scope scope);
 const char* effect_name(Effect effect);
 
-// Has the solver that `params` chooses a use for this parameter?
+// Is hair lit as the thesis does it? At the other levels too, where its colours tell something else (render.colors).
+bool lit_by_kajiya_kay(const HairParams& params);
+
+// Has what `params` chooses a use for this parameter?
 bool is_read(const ParamInfo& info, const HairParams& params);
 
-// The label in solver.kind of the one solver that reads it; "" where all do.
+// What must be so for that: "solver.kind is pbd"; "" where it is always read.
 std::string only_reader(const ParamInfo& info);
 
 // "strand.length" -> its line, or null.

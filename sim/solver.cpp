@@ -44,6 +44,22 @@ Solver::~Solver()
     }
 }
 
+// But for what is only looked at: without shadows of their own steps and strands hang on none of it.
+static bool same_hair(const HairParams& a, const HairParams& b)
+{
+    return std::ranges::all_of(param_table(),
+                               [&](const ParamInfo& info)
+                               {
+                                   const std::string_view group = info.group;
+                                   float of_a[kMostNumbers] = {}, of_b[kMostNumbers] = {};
+                                   if (info.on_host() || group == "look" || group == "camera")
+                                       return true;
+                                   get_numbers(a, info, of_a);
+                                   get_numbers(b, info, of_b);
+                                   return std::ranges::equal(of_a, of_b);
+                               });
+}
+
 void Solver::set_params(const HairParams& params)
 {
     const HairParams wanted = device_params(params);
@@ -71,10 +87,12 @@ void Solver::set_params(const HairParams& params)
                           p.bending_attenuation, p.bending_along, p.forces_gravity);
     };
     const bool reshaped = shaping(wanted) != shaping(params_);
-    changed_ |= memcmp(&wanted, &params_, sizeof wanted) != 0;
+    const bool shadow = has_shadow();
+    const bool same = memcmp(&wanted, &params_, sizeof wanted) == 0, same_but_looks = same_hair(wanted, params_);
     params_ = wanted;
     if (other_grid)
         empty_grid();
+    changed_ |= !same && (!same_but_looks || shadow || has_shadow());
     if (reshaped)
         set_rest_shape();
     device_.queue.enqueueWriteBuffer(buffer("params"), CL_TRUE, 0, sizeof params_, &params_);
@@ -255,6 +273,6 @@ int Solver::blocks_awake() const
         awake += *std::min_element(block, block + LANES) < SLEEP_AFTER;
     return awake;
 }
-bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f; }
+bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f && lit_by_kajiya_kay(params_); }
 
 } // namespace coif

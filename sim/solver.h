@@ -81,7 +81,7 @@ class Solver
     std::vector<float> multipliers() const; // [block][node][lane], 1/s^2: tension over mass and length
     std::vector<int> resets() const;        // of each guide since the start
     std::vector<int> faults() const;        // of each guide: why it was last reset, FAULT_* of kernels/shared.h
-    bool has_shadow() const;
+    bool has_shadow() const;                // of strands on strands, as the thesis has it: light_grid.h
 
     const Device& device() const { return device_; }
     const Groom& groom() const { return groom_; }
@@ -115,6 +115,7 @@ class Solver
     void look_for_rest();
     void send(const std::string& name, const void* data, size_t bytes);
     void simulate(const StepInfo& info);
+    void make_density();
     void simulate_direct(const StepInfo& info);
     void upload(const StepInfo& info);
     void upload_direct(const StepPath& path, const Pose& before, bool teleport);
@@ -128,6 +129,7 @@ class Solver
     bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
     bool blocks_may_sleep_ = false;
+    bool dense_ = true; // is the density that of the last step?
     long drawings_ = 0;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in
     double watched_ = 0.0; // s that `moved` is the greatest of

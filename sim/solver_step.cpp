@@ -221,6 +221,16 @@ void Solver::look_for_rest()
     asleep_ = calm_ >= 3; // the first saw what was before, too
 }
 
+// As the last step would have, had light been asked for then.
+void Solver::make_density()
+{
+    empty_grid();
+    launch_strands("deposit_density", "", size_t(groom_.guides));
+    launch("grid_room", "", cl::NDRange(1), cl::NDRange(1));
+    blur();
+    dense_ = true;
+}
+
 void Solver::step(const std::vector<Substep>& wanted)
 {
     std::vector<Substep> substeps;
@@ -266,7 +276,8 @@ void Solver::step(const std::vector<Substep>& wanted)
     if (quiet_ % kLookEvery == 0 && quiet_ > 0)
         look_for_rest();
     const bool repels = params_.forces_repulsion > 0.0f;
-    if (!repels && !has_shadow())
+    dense_ = repels || has_shadow();
+    if (!dense_)
         return;
     launch("grid_room", "", cl::NDRange(1), cl::NDRange(1));
     blur();
@@ -344,6 +355,8 @@ void Solver::draw()
     const std::string braided = braids ? "-D BRAIDED " : "";
     if (has_shadow())
     {
+        if (!dense_)
+            make_density();
         const size_t side = size_t(params_.grid_resolution);
         const size_t chunks = side / size_t(chunk(device_, params_));
         if (body_.grid)

@@ -1,6 +1,7 @@
 // What each command prints where, what it writes, and how it ends.
 #include "tests/commands.h"
 
+#include <algorithm>
 #include <sstream>
 
 using namespace coif;
@@ -106,6 +107,42 @@ TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout
     EXPECT_EQ(number(result.out, "resets"), 0);
     EXPECT_EQ(number(result.out, "dropped_steps"), 0);
     EXPECT_LT(number(result.out, "drawn_penetration_max_mm"), 2.0);
+}
+
+TEST_F(Commands, report_holds_the_levels_of_the_look_against_traced_light)
+{
+    const std::string call = "report small.toml --set look.level=auto --seconds 0.1 ";
+    const std::string traced = coif(call + "--traced 2 --json").out, not_traced = coif(call + "--traced 0 --json").out;
+    for (const char* level : {"kajiya_kay", "karis", "far_field", "dual_scattering"})
+    {
+        const auto of = [&](const std::string& json) // this level's object
+        {
+            const size_t at = json.rfind(std::string("{\"level\": \"") + level);
+            return at == json.npos ? std::string() : json.substr(at, json.find('}', at) - at);
+        };
+        const std::string with = of(traced), without = of(not_traced);
+        for (const char* key : {"off", "locks"})
+            EXPECT_TRUE(number(with, key) > 0.0 && number(with, key) < 2.0) << level << " " << key << ": " << with;
+        EXPECT_NE(without.find("\"radiance\": [null, null, null], \"off\": null"), without.npos) << without;
+        EXPECT_EQ(with.find("\"ms_shade\": null") != with.npos, std::string(level) == "kajiya_kay") << with;
+    }
+    EXPECT_EQ(number(traced, "samples_traced"), 2);
+    EXPECT_EQ(number(not_traced, "samples_traced"), 0);
+
+    const std::string text = coif(call + "--traced 2").out;
+    EXPECT_NE(text.find("against 2 samples a pixel"), text.npos) << text;
+    EXPECT_EQ(coif("report small.toml --set look.level=kajiya_kay --seconds 0.1").out.find("traced in"), text.npos);
+
+    std::istringstream row(coif(call + "--traced 2 --row --untimed").out);
+    std::string head, values;
+    std::getline(row, head);
+    std::getline(row, values);
+    EXPECT_TRUE(head.ends_with(",look,look_ms,look_radiance_red,look_radiance_green,look_radiance_blue,look_off"));
+    EXPECT_EQ(std::ranges::count(head, ','), std::ranges::count(values, ',')) << values;
+    EXPECT_NE(values.find(",,"), values.npos) << "no times: " << values;
+    EXPECT_EQ(coif(call + "--traced 2 --row --untimed").out, head + "\n" + values + "\n");
+    EXPECT_EQ(coif(call + "--traced -1").status, 1);
+    EXPECT_EQ(coif(call + "--traced 100000").status, 1);
 }
 
 TEST_F(Commands, report_writes_a_line_for_each_frame_as_csv)

@@ -141,6 +141,22 @@ TEST_F(EditorLights, without_a_list_the_one_light_is_turned_and_the_picture_show
     EXPECT_TRUE(until([&] { return same_style(editor->style(), style); })) << "one step";
 }
 
+TEST_F(EditorLights, the_panel_measures_the_shown_level_on_demand_and_says_when_that_is_of_another_look)
+{
+    take("[look]\nlevel = \"dual_scattering\"\n[interpolation]\nstrands = 300\n[forces]\nrepulsion = 0.0\n");
+    find_in_panel("look.level");
+    EXPECT_TRUE(editor->panel().look_cost.starts_with("dual_scattering: ")) << editor->panel().look_cost;
+    EXPECT_EQ(editor->panel().look_error, "");
+    click(editor->panel().places.at("measure look"));
+    const auto& panel = editor->panel();
+    ASSERT_TRUE(within(30.0, [&] { return !panel.look_error.empty(); })) << editor->message();
+    EXPECT_TRUE(panel.look_error.starts_with("dual_scattering has ")) << panel.look_error;
+    EXPECT_TRUE(panel.look_error.ends_with(" % off")) << panel.look_error;
+    shoot("look measured");
+    take("[look]\nlevel = \"dual_scattering\"\nroot_color = \"#ffffff\"\n[interpolation]\nstrands = 300\n");
+    EXPECT_TRUE(panel.look_error.ends_with(" % off, before the last change")) << panel.look_error;
+}
+
 TEST_F(EditorLights, of_a_file_become_the_style_s_own_when_they_are_turned)
 {
     take("[look]\nlights = \"studio.toml\"\n[interpolation]\nstrands = 300\n");

@@ -118,6 +118,17 @@ TEST_F(Panel, what_the_chosen_solver_does_not_read_cannot_be_moved)
     }
 }
 
+TEST_F(Panel, what_the_chosen_level_does_not_read_cannot_be_moved)
+{
+    for (const char* level : {"kajiya_kay", "auto", "dual_scattering"})
+    {
+        style = {};
+        assign(style, std::string("look.level=") + level);
+        for (const char* path : {"look.diffuse", "look.roughness", "look.ior", "look.tolerance", "look.self_shadow"})
+            EXPECT_EQ(click(path), is_read(*find_param(path), style.params)) << path << " at " << level;
+    }
+}
+
 TEST_F(Panel, what_differs_from_the_default_has_a_button_that_takes_it_back)
 {
     assign(style, "root.lift=12");

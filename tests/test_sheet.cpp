@@ -63,6 +63,30 @@ class Pictures : public Commands
 };
 } // namespace
 
+TEST_F(Pictures, a_sheet_of_levels_shows_each_style_five_times_with_two_lines_below)
+{
+    const Result result = coif("sheet red.toml short.toml --levels 2 -o levels.png" + std::string(kSmall));
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Image page = load_png(folder / "levels.png");
+    const SheetLayout at = lay_out(10, 5, 64, 56, 2);
+    ASSERT_EQ(page.width, at.width);
+    ASSERT_EQ(page.height, at.height);
+    for (int cell = 0; cell < 10; ++cell)
+        for (const int line : {0, 1})
+            EXPECT_GT(bright(part(page, at.x(cell), at.y(cell) + 56 + at.letters / 2 + line * at.line_height(), 64,
+                                  at.letters)),
+                      5)
+                << cell << " " << line;
+    // Traced light is not that of any level.
+    for (int level = 0; level < 4; ++level)
+        EXPECT_NE(part(page, at.x(level), at.y(level), 64, 56).pixels, part(page, at.x(4), at.y(4), 64, 56).pixels);
+
+    EXPECT_EQ(coif("sheet red.toml --levels 0 -o x.png" + std::string(kSmall)).status, 2);
+    const Result two = coif("sheet red.toml --levels 2 -j 2 -o x.png" + std::string(kSmall));
+    EXPECT_EQ(two.status, 1);
+    EXPECT_NE(two.err.find("disturb each other's cost"), two.err.npos) << two.err;
+}
+
 TEST_F(Pictures, a_sheet_shows_every_style_in_order_with_its_name)
 {
     const std::string call = std::string("sheet red.toml small.toml short.toml --columns 2 --time 0.1") + kSmall;

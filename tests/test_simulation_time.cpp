@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -53,6 +56,76 @@ std::string differing(const Bytes& a, const Bytes& b)
         if (bytes != b.at(name))
             names += name + " ";
     return names;
+}
+
+// What light needs besides, where the look has a volume of its own, would be swept for nobody.
+TEST(Time, OnlyTheThesisLightAsksForTheGridOfShadows)
+{
+    for (const char* repulsion : {"forces.repulsion=0", "forces.repulsion=1"})
+    {
+        SCOPED_TRACE(repulsion);
+        const std::string sets = std::string("look.level=auto;") + repulsion;
+        Simulation other(test_device(), small_style(sets));
+        Simulation thesis(test_device(), small_style(sets + ";look.level=kajiya_kay"));
+        for (Simulation* simulation : {&other, &thesis})
+        {
+            simulation->solver().take_times();
+            simulation->step(simulation->hand());
+            simulation->solver().draw();
+        }
+        const auto ran = [](Simulation& simulation)
+        {
+            std::set<std::string> passes;
+            for (const auto& [pass, ms] : simulation.solver().take_times())
+                passes.insert(pass);
+            return passes;
+        };
+        const std::set<std::string> by_other = ran(other), by_thesis = ran(thesis);
+        EXPECT_TRUE(by_thesis.contains("transmittance"));
+        EXPECT_FALSE(by_other.contains("transmittance"));
+        EXPECT_EQ(by_other.contains("clear_density"), std::string(repulsion) == "forces.repulsion=1");
+        EXPECT_EQ(other.solver().optical_depth().bytes(), 0u);
+
+        // Asked for between two steps it is as if it had always been.
+        Hairstyle style = other.style();
+        assign(style, "look.level=kajiya_kay");
+        other.set_style(style);
+        other.solver().draw();
+        EXPECT_EQ(differing(results(other), results(thesis)), "");
+        // Colours that tell something else are lit as the thesis does it, whatever the level.
+        for (const char* set : {"look.level=auto", "render.colors=stretch"})
+            assign(style, set);
+        other.set_style(style);
+        EXPECT_GT(other.solver().optical_depth().bytes(), 0u);
+    }
+}
+
+// A light that is dragged about it is followed by what shades it, and wakes it only for the thesis' own shadows.
+TEST(Time, HairThatSleepsIsNotWokenByALightThatItsStepsDoNotRead)
+{
+    for (const char* level : {"auto", "kajiya_kay"})
+    {
+        Simulation simulation(test_device(),
+                              small_style(std::string("forces.wind=[0, 0, 0];forces.repulsion=0;look.level=") + level));
+        for (int i = 0; i < 600 && (i < 2 || !simulation.solver().asleep()); ++i)
+            simulation.step(simulation.hand());
+        ASSERT_TRUE(simulation.solver().asleep());
+        simulation.solver().draw();
+        simulation.solver().draw();
+        const long drawings = simulation.solver().drawings();
+        Hairstyle style = simulation.style();
+        assign(style, "look.light_direction=[-1, 0.2, 0.3]");
+        simulation.set_style(style);
+        simulation.step(simulation.hand());
+        simulation.solver().draw();
+        const bool woken = std::string(level) == "kajiya_kay";
+        EXPECT_EQ(simulation.solver().asleep(), !woken) << level;
+        EXPECT_EQ(simulation.solver().drawings() > drawings, woken) << level;
+        assign(style, "bending.droop=3");
+        simulation.set_style(style);
+        simulation.step(simulation.hand());
+        EXPECT_FALSE(simulation.solver().asleep()) << level;
+    }
 }
 
 TEST(Time, EqualInputGivesEqualBytes)

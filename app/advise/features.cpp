@@ -39,7 +39,7 @@ static bool direct(const Hairstyle& s, bool) { return s.params.solver_kind == 0;
 static bool pbd(const Hairstyle& s, bool) { return s.params.solver_kind == 1; }
 static bool has_grid(const Hairstyle& s, bool)
 {
-    return s.params.forces_repulsion > 0.0f || s.params.look_self_shadow > 0.0f;
+    return s.params.forces_repulsion > 0.0f || (s.params.look_self_shadow > 0.0f && lit_by_kajiya_kay(s.params));
 }
 static bool draws(const Hairstyle& s, bool) { return s.params.interpolation_strands > 0; }
 static bool in_wind(const Hairstyle& s, bool windy)

@@ -35,14 +35,7 @@ std::vector<BenchRow> bench_look(const Benching& with)
             [&, level]
             {
                 with.progress(level_name(level));
-                shading.take_times();
-                shading.light(scene);
-                PassTimes times = shading.take_times();
-                const double light = sum_of(times);
-                shading.shade(eye, level, 1.0f);
-                const double shade = sum_of(shading.take_times());
-                times.insert(times.begin(), {{"frame", light + shade}, {"look_shade", shade}});
-                return times;
+                return time_level(shading, scene, eye, level);
             });
     const std::vector<std::vector<BenchRow>> times = timed(runs, with.quick ? 5 : 15);
     const int strands = shading.volume().strands, places = shading.volume().places,

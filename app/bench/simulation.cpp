@@ -100,7 +100,9 @@ std::vector<BenchRow> bench_guides(const Benching& with)
     std::vector<BenchRow> rows;
     with.progress("4096 strands");
     BenchHair many(with.device, "bob", straight_bob(4096));
-    BenchHair few(with.device, "bob", {"forces.wind=[3, 0, 0]", "forces.repulsion=1", "interpolation.strands=4096"});
+    BenchHair few(with.device, "bob",
+                  {"forces.wind=[3, 0, 0]", "forces.repulsion=1", "interpolation.strands=4096",
+                   "look.level=kajiya_kay"}); // which has its shadows here
     const std::vector<std::vector<BenchRow>> times =
         timed({[&] { return many.frames(24, false); }, [&] { return few.frames(24, true); }}, with.quick ? 5 : 21);
     add_rows(rows, times[0], many, with, "all simulated; bending, head");

@@ -1,13 +1,12 @@
-// The levels of the look against light that is followed through the same strands (app/traced). Compared are the hair's
-// pixels alone, and neither pixel by pixel: a strand's glint is noise to both. What counts is how much light there is
-// in each channel, where it is over half a dozen pixels, and the locks. How far two traced pictures with other random
-// numbers are apart stands beside it.
+// The levels of the look against light that is followed through the same strands (app/traced), in the hair's pixels
+// alone. How far two traced pictures with other random numbers are apart stands beside it.
 #include "app/display.h"
+#include "app/likeness.h"
+#include "app/look_error.h"
 #include "app/measure/measure.h"
 #include "app/renderer.h"
 #include "app/shading.h"
 #include "app/sheet.h"
-#include "app/ssim.h"
 #include "app/traced/accumulation.h"
 #include "sim/distance_grid.h"
 #include "sim/error.h"
@@ -42,98 +41,7 @@ constexpr const char* kStyles[] = {"long", "ringlets", "wolf_cut"};
 constexpr const char* kLights[] = {"studio", "outdoors", "rim"};
 
 constexpr double kRadiance = 0.15, kRoughly = 0.23; // what dual scattering may be off by, and over 6 pixels
-constexpr float kHair = 0.9f; // share of a pixel that makes it the hair's: skin that shows through is brighter
-constexpr double kFar = 6.0, kLocks = 2.0; // pixels that pictures are blurred by
 } // namespace
-
-// Gaussian, separable, of all channels; the border is repeated.
-static std::vector<float> blurred(const std::vector<float>& values, int width, int height, int channels, double sigma)
-{
-    const int reach = int(std::ceil(3.0 * sigma));
-    std::vector<double> weight;
-    double all = 0.0;
-    for (int d = -reach; d <= reach; ++d)
-    {
-        weight.push_back(std::exp(-0.5 * d * d / (sigma * sigma)));
-        all += weight.back();
-    }
-    std::vector<float> from = values, to(values.size());
-    for (const bool across : {true, false})
-    {
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                for (int c = 0; c < channels; ++c)
-                {
-                    double sum = 0.0;
-                    for (int d = -reach; d <= reach; ++d)
-                    {
-                        const int i = across ? std::clamp(x + d, 0, width - 1) : x;
-                        const int j = across ? y : std::clamp(y + d, 0, height - 1);
-                        sum += weight[size_t(d + reach)] * double(from[size_t((j * width + i) * channels + c)]);
-                    }
-                    to[size_t((y * width + x) * channels + c)] = float(sum / all);
-                }
-        std::swap(from, to);
-    }
-    return from;
-}
-
-// As it is shown, blurred to the size of locks.
-static Image locks_of(const LinearImage& light, const HairParams& params)
-{
-    Image image = displayed(light, params);
-    const std::vector<float> bytes(image.pixels.begin(), image.pixels.end());
-    const std::vector<float> soft = blurred(bytes, image.width, image.height, 4, kLocks);
-    for (size_t i = 0; i < soft.size(); ++i)
-        image.pixels[i] = static_cast<unsigned char>(soft[i] + 0.5f);
-    return image;
-}
-
-// Over the pixels of `hair`, and weighted by it.
-struct Likeness
-{
-    glm::dvec3 radiance{0.0}; // against the reference's, a channel
-    double roughly = NAN;     // root mean square of what is left after a blur, against the reference's
-    double locks = NAN;       // SSIM
-};
-
-static Likeness likeness(const LinearImage& image, const LinearImage& reference, const std::vector<float>& hair,
-                         const HairParams& params)
-{
-    Likeness like;
-    glm::dvec3 ours(0.0), theirs(0.0);
-    Mask mask(hair.size());
-    std::vector<float> covered[2];
-    for (size_t i = 0; i < hair.size(); ++i)
-    {
-        mask[i] = hair[i] > kHair;
-        for (int c = 0; c < 3; ++c)
-        {
-            const float a = image.pixels[4 * i + size_t(c)], b = reference.pixels[4 * i + size_t(c)];
-            covered[0].push_back(a * hair[i]);
-            covered[1].push_back(b * hair[i]);
-            if (mask[i])
-            {
-                ours[c] += double(a);
-                theirs[c] += double(b);
-            }
-        }
-    }
-    for (int c = 0; c < 3; ++c)
-        like.radiance[c] = ours[c] / std::max(theirs[c], 1e-12);
-    const std::vector<float> a = blurred(covered[0], image.width, image.height, 3, kFar);
-    const std::vector<float> b = blurred(covered[1], image.width, image.height, 3, kFar);
-    double off = 0.0, size = 0.0;
-    for (size_t i = 0; i < a.size(); ++i)
-        if (mask[i / 3])
-        {
-            off += double(a[i] - b[i]) * double(a[i] - b[i]);
-            size += double(b[i]) * double(b[i]);
-        }
-    like.roughly = std::sqrt(off / std::max(size, 1e-12));
-    like.locks = ssim(locks_of(image, params), locks_of(reference, params), mask);
-    return like;
-}
 
 // Traced anew, or as it was before for the same input.
 static Accumulation traced(const Tracer& tracer, int width, int height, uint32_t samples, uint64_t seed)
@@ -235,11 +143,7 @@ std::vector<Row> measure_look(const Measuring& with)
                 style.params.look_pheomelanin = pigment.pheomelanin;
                 simulation.set_style(style);
                 simulation.solver().draw();
-                FrameInput frame = frame_input(simulation, camera);
-                frame.samples = with.quick ? 4 : 16;
-                frame.transparent = true;
-
-                const Tracer tracer(traced_scene(frame));
+                const Tracer tracer(traced_scene(frame_input(simulation, camera)));
                 const std::vector<float> hair = tracer.hair(width, height, 16);
                 const LinearImage truth = mean_of(traced(tracer, width, height, uint32_t(samples), 0));
                 const LinearImage again = mean_of(traced(tracer, width, height, uint32_t(samples), 1));
@@ -253,9 +157,9 @@ std::vector<Row> measure_look(const Measuring& with)
                 row.reference = fmt::format("{} samples traced a pixel", samples);
                 for (int level = LOOK_KAJIYA_KAY; level <= LOOK_DUAL_SCATTERING; ++level)
                 {
-                    frame.params.look_level = level;
                     const auto begin = std::chrono::steady_clock::now();
-                    const LinearImage image = renderer.linear_picture(frame, width, height);
+                    const LinearImage image =
+                        light_at_level(renderer, simulation, camera, level, {width, height, with.quick ? 4 : 16});
                     row.ms =
                         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
                     row.knob = levels[size_t(level)];

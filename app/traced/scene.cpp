@@ -2,6 +2,7 @@
 
 #include "app/renderer_rings.h"
 #include "app/root_shares.h"
+#include "app/solids.h"
 #include "sim/drawn_curve.h"
 #include "sim/hair_color.h"
 
@@ -73,9 +74,7 @@ static void add_head(TracedScene& scene, const FrameInput& frame, const HairPara
         const glm::vec3 at = assets.head.positions[i] * params.head_mesh_scale + vec(params.head_offset);
         scene.position.push_back(turn * (at * params.head_scale));
         scene.normal.push_back(turn * assets.head.normals[i]);
-        // As shaders/surface.vert has it.
-        scene.albedo.push_back(
-            glm::mix(vec(params.head_color), 0.6f * vec(params.look_root_color), params.head_scalp_tint * roots[i]));
+        scene.albedo.push_back(skin_albedo(params, roots[i]));
     }
 }
 
@@ -83,7 +82,6 @@ static void add_head(TracedScene& scene, const FrameInput& frame, const HairPara
 static void add_obstacles(TracedScene& scene, const FrameInput& frame)
 {
     constexpr unsigned kRings = 64, kSides = 96;
-    const glm::vec3 gray(0.30f, 0.34f, 0.40f); // as the renderer's
     const std::vector<Capsule> placed = frame.simulation->solver().placed_colliders();
     std::vector<glm::uvec3> triangles;
     for (unsigned i = 0; i < kRings; ++i)
@@ -107,7 +105,7 @@ static void add_obstacles(TracedScene& scene, const FrameInput& frame)
                 scene.position.push_back(vec(placed[c].center) + n * placed[c].center.w +
                                          (glm::dot(n, axis) > 0.0f ? axis : glm::vec3(0.0f)));
                 scene.normal.push_back(n);
-                scene.albedo.push_back(gray);
+                scene.albedo.push_back(kObstacleAlbedo);
             }
     }
 }

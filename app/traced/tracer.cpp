@@ -1,12 +1,6 @@
 #include "app/traced/tracer.h"
 
-#include "sim/error.h"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "app/traced/rays.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -28,7 +22,6 @@ static constexpr float kOff = 2e-5f;    // m that rays begin off a solid, so tha
 static constexpr int kAllLights = 2;    // bounces up to which each light is asked; later one, by chance
 static constexpr int kSafe = 3;         // bounces that no path is ended before, by chance
 static constexpr double kTrifle = 1e-6; // of its light that a path is ended with
-static constexpr int kMostSkipped = 64; // surfaces that a ray leaves strands by, before it comes into the next
 static constexpr uint32_t kAtOnce = 64; // samples of a pixel, at most: a stop waits for the end of a row
 
 uint32_t Accumulation::fewest() const { return samples.empty() ? 0 : *std::ranges::min_element(samples); }
@@ -55,93 +48,23 @@ struct Random
     double operator()() { return double(bits() >> 11) * 0x1p-53; }
 };
 
-struct Ray
-{
-    glm::dvec3 from, way; // of unit length
-    // The strand that it comes out of is not met again before it is left behind, m.
-    size_t strand = SIZE_MAX;
-    double within = 0.0;
-};
 } // namespace
 
-struct Tracer::Embree
+struct Tracer::Embree : TracedRays
 {
-    TracedScene of;
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    RTCGeometry strands = nullptr, solids = nullptr;
-    std::vector<unsigned> segments; // first control point of each
-    unsigned strands_id = RTC_INVALID_GEOMETRY_ID, solids_id = RTC_INVALID_GEOMETRY_ID;
     std::vector<double> light_share; // of each sun among all, up to it: what one is chosen by
     std::vector<double> light_chance;
 
     explicit Embree(TracedScene scene);
-    ~Embree();
 
-    RTCRayHit meet(const Ray& ray) const;
-    bool reaches(const Ray& ray) const;
     glm::dvec3 light_of(Ray ray, Random& random, int bounces, bool& hit) const;
     template <typename Receive> glm::dvec3 from_lights(Random& random, int bounce, const Receive& receive) const;
     Ray ray_of(int x, int y, int width, int height, Random& random) const;
     glm::vec4 sample(int x, int y, int width, int height, Random random, int bounces) const;
-
-    void add_strands();
-    void add_solids();
-    void check(const char* doing) const;
 };
 
-void Tracer::Embree::check(const char* doing) const
+Tracer::Embree::Embree(TracedScene traced) : TracedRays(std::move(traced))
 {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw fail("there is not enough memory to {}; draw fewer strands", doing);
-    if (error != RTC_ERROR_NONE)
-        throw fail("Embree could not {}: error {}", doing, int(error));
-}
-
-void Tracer::Embree::add_strands()
-{
-    const size_t n = of.points, count = of.strands();
-    if (count == 0)
-        return;
-    if (of.curve.size() > std::numeric_limits<unsigned>::max())
-        throw fail("{} strands of {} points are more than can be traced; draw fewer strands", count, n);
-    segments.reserve(count * (n - 1));
-    for (size_t s = 0; s < count; ++s)
-        for (size_t k = 0; k + 1 < n; ++k)
-            segments.push_back(unsigned(s * (n + 2) + k));
-    strands = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE);
-    rtcSetSharedGeometryBuffer(strands, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, of.curve.data(), 0,
-                               sizeof(glm::vec4), of.curve.size());
-    rtcSetSharedGeometryBuffer(strands, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, segments.data(), 0, sizeof(unsigned),
-                               segments.size());
-    rtcCommitGeometry(strands);
-    strands_id = rtcAttachGeometry(scene, strands);
-}
-
-void Tracer::Embree::add_solids()
-{
-    if (of.triangles.empty())
-        return;
-    of.position.emplace_back(0.0f); // Embree reads 16 bytes of each
-    solids = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(solids, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, of.position.data(), 0,
-                               sizeof(glm::vec3), of.position.size() - 1);
-    rtcSetSharedGeometryBuffer(solids, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, of.triangles.data(), 0,
-                               sizeof(glm::uvec3), of.triangles.size());
-    rtcCommitGeometry(solids);
-    solids_id = rtcAttachGeometry(scene, solids);
-}
-
-Tracer::Embree::Embree(TracedScene traced) : of(std::move(traced)), device(rtcNewDevice(nullptr))
-{
-    if (!device)
-        throw fail("Embree, which traces rays, does not start on this machine: error {}",
-                   int(rtcGetDeviceError(nullptr)));
-    scene = rtcNewScene(device);
-    add_strands();
-    add_solids();
-    rtcCommitScene(scene);
     double sum = 0.0;
     for (const Sun& sun : of.lighting.suns)
     {
@@ -154,60 +77,6 @@ Tracer::Embree::Embree(TracedScene traced) : of(std::move(traced)), device(rtcNe
         light_chance[i] /= sum;
     }
 }
-
-Tracer::Embree::~Embree()
-{
-    for (const RTCGeometry geometry : {strands, solids})
-        if (geometry)
-            rtcReleaseGeometry(geometry);
-    if (scene)
-        rtcReleaseScene(scene);
-    if (device)
-        rtcReleaseDevice(device);
-}
-
-static void set_ray(RTCRay& to, const Ray& ray)
-{
-    to = {};
-    to.org_x = float(ray.from.x);
-    to.org_y = float(ray.from.y);
-    to.org_z = float(ray.from.z);
-    to.dir_x = float(ray.way.x);
-    to.dir_y = float(ray.way.y);
-    to.dir_z = float(ray.way.z);
-    to.tfar = std::numeric_limits<float>::infinity();
-    to.mask = ~0u;
-}
-
-// What it enters first. Strands of hair that stand for several lie within each other: what counts is where a ray comes
-// into one, though it be in another, so that as much hair is met as there is.
-RTCRayHit Tracer::Embree::meet(const Ray& ray) const
-{
-    float near = 0.0f;
-    for (int skipped = 0;; ++skipped)
-    {
-        RTCRayHit hit = {};
-        set_ray(hit.ray, ray);
-        hit.ray.tnear = near;
-        hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-        rtcIntersect1(scene, &hit);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene, &context, &hit);
-#endif
-        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID || hit.hit.geomID != strands_id || skipped == kMostSkipped)
-            return hit;
-        const double outwards = hit.hit.Ng_x * ray.way.x + hit.hit.Ng_y * ray.way.y + hit.hit.Ng_z * ray.way.z;
-        const bool own = hit.hit.primID / (of.points - 1) == ray.strand && hit.ray.tfar < ray.within;
-        if (outwards < 0.0 && !own)
-            return hit;
-        near = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) + 1e-7f;
-    }
-}
-
-bool Tracer::Embree::reaches(const Ray& ray) const { return meet(ray).hit.geomID == RTC_INVALID_GEOMETRY_ID; }
 
 // Two ways across a third, all of unit length.
 static void frame_of(const glm::dvec3& n, glm::dvec3& x, glm::dvec3& y)
