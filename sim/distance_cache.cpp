@@ -2,6 +2,7 @@
 // them; whatever is not just so is measured again.
 #include "sim/distance_grid.h"
 
+#include "sim/cache_file.h"
 #include "sim/error.h"
 #include "sim/hairstyle.h"
 #include "sim/hash.h"
@@ -83,25 +84,13 @@ catch (const std::exception&)
     return {};
 }
 
-static void keep_grid(const fs::path& folder, const fs::path& file, const DistanceGrid& grid, const Hash& mesh)
+static void keep_grid(const fs::path& file, const DistanceGrid& grid, const Hash& mesh)
 try
 {
-    fs::create_directories(folder);
-    std::vector<std::pair<fs::file_time_type, fs::path>> kept;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".distances" && entry.is_regular_file())
-            kept.emplace_back(entry.last_write_time(), entry.path());
-    std::sort(kept.begin(), kept.end());
-    for (size_t i = 0; i + kMostFiles <= kept.size(); ++i)
-        fs::remove(kept[i].second);
-    if (fs::is_symlink(file))
-        fs::remove(file); // what it names is somebody's
-    if (fs::exists(file) && !fs::is_regular_file(file))
-        return; // a pipe would wait for a reader
     const Header header = header_of(grid, mesh);
     std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
     bytes.append(reinterpret_cast<const char*>(grid.distance.data()), grid.distance.size() * sizeof(float));
-    write_file(file, bytes);
+    write_cache_file(file, bytes, kMostFiles);
 }
 catch (const std::exception&)
 {
@@ -119,7 +108,7 @@ DistanceGrid cached_distance_grid(const Mesh& mesh, const fs::path& folder, int 
     if (grid.empty())
     {
         grid = compute_distance_grid(mesh, resolution);
-        keep_grid(folder, file, grid, hash);
+        keep_grid(file, grid, hash);
     }
     return grid;
 }

@@ -1,5 +1,6 @@
 #include "sim/program_cache.h"
 
+#include "sim/cache_file.h"
 #include "sim/distance_grid.h"
 #include "sim/error.h"
 #include "sim/hairstyle.h"
@@ -7,7 +8,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <mutex>
@@ -63,17 +63,6 @@ catch (const std::exception&)
     return {};
 }
 
-static void make_room(const fs::path& folder)
-{
-    std::vector<std::pair<fs::file_time_type, fs::path>> kept;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".program" && entry.is_regular_file())
-            kept.emplace_back(entry.last_write_time(), entry.path());
-    std::sort(kept.begin(), kept.end());
-    for (size_t i = 0; i + kMostFiles <= kept.size(); ++i)
-        fs::remove(kept[i].second);
-}
-
 void store_program(const Device& device, const ProgramSource& source, const cl::Program& program)
 try
 {
@@ -81,14 +70,8 @@ try
     const std::vector<std::vector<unsigned char>> binaries = program.getInfo<CL_PROGRAM_BINARIES>();
     if (file.empty() || binaries.size() != 1 || binaries[0].empty() || binaries[0].size() >= kMostBytes)
         return;
-    fs::create_directories(file.parent_path());
-    make_room(file.parent_path());
-    if (fs::is_symlink(file))
-        fs::remove(file); // what it names is somebody's
-    if (fs::exists(file) && !fs::is_regular_file(file))
-        return; // a pipe would wait for a reader
     const std::string binary(binaries[0].begin(), binaries[0].end());
-    write_file(file, digest_of(binary) + binary);
+    write_cache_file(file, digest_of(binary) + binary, kMostFiles);
 }
 catch (const std::exception&)
 {
