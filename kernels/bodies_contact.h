@@ -31,8 +31,8 @@ static inline void push_off_capsules(const Bodies* bodies, HeadPose last, HeadPo
 
 #ifdef BODY_GRID
 // The same by the plane that the head's surface is near this node (find_planes).
-static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose now, int node, Points x, Points* move,
-                                  real inside, float friction)
+LAID_IN void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose now, int node, Points x, Points* move,
+                            real inside, float friction)
 {
     const Points n = bodies->normal[node], to = into_head(now, plus(x, *move));
     real gap = fmin(dot_lanes(n, to) - bodies->level[node] + inside, (real)(0.0f));
@@ -48,13 +48,38 @@ static inline void push_off_plane(const Bodies* bodies, HeadPose last, HeadPose 
 }
 #endif
 
+// Before the step's last substep what lies no deeper than this share of a segment is on the surface: a quarter of what
+// a strand may move in a frame that comes to rest (sleep.h), for it goes there and back.
+#define TOUCHING 3e-4f
+
+// The strands that their lengths have pulled deeper than that, by the planes of their nodes: x going by move.
+LAID_IN whole pulled_in(const Bodies* bodies, HeadPose now, const Points* x, const Points* move, real rest,
+                        held_count held, const real* inside)
+{
+    real least = (real)(0.0f);
+    for (int k = 2; k < NODES; ++k)
+    {
+        const Points at = plus(x[k], move[k]);
+        real gap = (real)(0.0f);
+        if (bodies->near_count > 0)
+            gap = nearest_capsule(bodies, now, at).distance + inside[k];
+#ifdef BODY_GRID
+        const real height = dot_lanes(bodies->normal[k], into_head(now, at)) - bodies->level[k];
+        gap = fmin(gap, select((real)(0.0f), height + inside[k], bodies->may_meet[k]));
+#endif
+        least = fmin(least, UNLESS_HELD(k, held, (real)(0.0f), gap));
+    }
+    return least < -TOUCHING * rest;
+}
+
 // Root to tip, the last word of a substep: each node at its exact length from its parent and, if that is inside a body,
-// on the circle where that length meets the body's surface (its tangent plane, found again from where that led). Where
-// the parent lies too deep for that, straight outwards: then length has the say. `rest` and `inside` in m; `inside[k]`
-// is how deep node k may still be; nodes before the lane's `held` stay (direct.h). Only the last substep's walk need be
-// `exact` (nearest_body). Returns the strands that it found in contact.
+// on the circle where that length meets the body's surface (its tangent plane, found again from where that led), but
+// for a trifle outwards, so that it is not found inside again. Where the parent lies too deep for that, straight
+// outwards: then length has the say. `rest` and `inside` in m; `inside[k]` is how deep node k may still be; nodes
+// before the lane's `held` stay (direct.h). Only the last substep's walk need be `exact` (nearest_body). Returns the
+// strands that it found in contact.
 #define WALK_ROUNDS 6
-#define TOUCHING 1e-5f // of a segment: what lies that deep is on the surface, until the last substep
+#define OUTWARDS 1e-5f // of a segment
 static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, real rest, held_count held,
                              const real* inside, int exact)
 {
@@ -86,7 +111,7 @@ static inline whole walk_out(const Bodies* bodies, HeadPose head, Points* x, rea
             touched |= in;
             const Points n = away_in_world(head, nearest);
             // Height of the parent over the plane, and the direction along the plane.
-            const real along = dot_lanes(n, d), height = clamp(gap - along, -rest, rest);
+            const real along = dot_lanes(n, d), height = clamp(gap - along - OUTWARDS * rest, -rest, rest);
             Points t = points(d.x - along * n.x, d.y - along * n.y, d.z - along * n.z);
             const real t_squared = dot_lanes(t, t);
             // Straight into the plane: any way along it, here across the axis that n is least along.

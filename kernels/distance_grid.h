@@ -64,7 +64,7 @@ static inline real head_height(global const float* body_distance, Points p, cons
 
 // The same, and the unit normal of the plane that the surface is nearby, outwards in that frame: the gradient of just
 // that distance. In a crease, where it vanishes, along the head's y.
-static inline real head_distance(global const float* body_distance, Points p, Points* normal, constant StepInfo* info)
+LAID_IN real head_distance(global const float* body_distance, Points p, Points* normal, constant StepInfo* info)
 {
     const BodyCell cell = body_cell(p, info->body_x, info->body_y, info->body_z, 1.0f, info);
     const real fx = cell.fx, fy = cell.fy, fz = cell.fz;
@@ -98,7 +98,7 @@ typedef struct BodyPlane
 } BodyPlane;
 
 // At a point relative to the head's origin along the world's axes, m, at the end of the step.
-static inline BodyPlane body_plane(global const float* body_distance, real x, real y, real z, constant StepInfo* info)
+LAID_IN BodyPlane body_plane(global const float* body_distance, real x, real y, real z, constant StepInfo* info)
 {
     const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;
     Points normal;
@@ -109,8 +109,8 @@ static inline BodyPlane body_plane(global const float* body_distance, real x, re
 }
 
 // Which way is out of the body on the whole, at points as above: unit length, along the world's axes.
-static inline void body_way_out(global const float4* body_way, real x, real y, real z, real* wx, real* wy, real* wz,
-                                constant StepInfo* info)
+LAID_IN void body_way_out(global const float4* body_way, real x, real y, real z, real* wx, real* wy, real* wz,
+                          constant StepInfo* info)
 {
     const int size_x = info->body_x / 2 + 1, size_y = info->body_y / 2 + 1, size_z = info->body_z / 2 + 1;
     const float4 r0 = info->head_row0, r1 = info->head_row1, r2 = info->head_row2;

@@ -38,9 +38,8 @@ static inline void out_of_body(global const float* body_distance, global const f
 
 // Out of the head and of the colliders numbered in `which`. What one pushes into the other goes on straight the way
 // that both together have pushed it, as long as it takes to be out of both.
-static inline void out_of_all(global const float* body_distance, global const float4* body_way,
-                              constant Capsule* colliders, const short* which, int count, Points* p, real room,
-                              constant StepInfo* info)
+LAID_IN void out_of_all(global const float* body_distance, global const float4* body_way, constant Capsule* colliders,
+                        const short* which, int count, Points* p, real room, constant StepInfo* info)
 {
 #ifndef BODY_GRID
     out_of(colliders, which, count, p, room);

@@ -88,7 +88,7 @@ static inline Points load_node(global const float4* nodes, const int* strand, in
 #endif
 }
 
-static inline void store_node(global float4* nodes, const int* strand, int node, Points p, real with)
+LAID_IN void store_node(global float4* nodes, const int* strand, int node, Points p, real with)
 {
     nodes += node;
 #if WIDTH == 1

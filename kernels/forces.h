@@ -28,7 +28,7 @@ static inline Points across_wind(Points w, Points t)
 
 // What crowded hair does to a node at p: down the gradient of the density, which lies component after component.
 // Trilinear; outside of the grid there is no hair.
-static inline Points repulsion_at(global const float* gradient, Points p, constant StepInfo* info)
+LAID_IN Points repulsion_at(global const float* gradient, Points p, constant StepInfo* info)
 {
     const float inverse = 1.0f / info->grid_corner.w, last = (float)(RESOLUTION - 1);
     const real gx = (p.x - info->grid_corner.x) * inverse - 0.5f;

@@ -8,7 +8,7 @@
 #include "interpolate_light.h"
 
 // A node of one guide for each lane; `guide` holds where the guides' values begin.
-static inline Points guide_node(global const float* position, const int* guide, int node)
+LAID_IN Points guide_node(global const float* position, const int* guide, int node)
 {
     global const float* from = position + node * 3 * LANES;
     const whole at = LANES_LOAD(guide);

@@ -11,7 +11,7 @@ static inline real light_rays(real at, float slant, real passed)
 }
 
 // Bilinear between the four rays about (u, v) in each lane's slice.
-static inline real slice_depth(global const float* depth, real u, real v, whole slice, constant StepInfo* info)
+LAID_IN real slice_depth(global const float* depth, real u, real v, whole slice, constant StepInfo* info)
 {
     const real passed = TO_REAL(slice);
     const real ru = light_rays(u, info->sweep.x, passed), rv = light_rays(v, info->sweep.y, passed);

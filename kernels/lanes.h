@@ -35,6 +35,10 @@ typedef uint bits;
 #define AS_BITS(v) as_uint(v)
 #endif
 
+// A call hands lanes over through memory, and a CPU's compiler calls what is long. What much of the time is spent in
+// says that it is to be laid in where it is called, as GPUs' compilers do with everything.
+#define LAID_IN __attribute__((always_inline)) static inline
+
 // On CPUs 1 / sqrt(x) is faster than rsqrt(x) and rounds the same everywhere.
 #define INVERSE_SQRT(x) (1.0f / sqrt(x))
 

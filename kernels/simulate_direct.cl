@@ -299,12 +299,14 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
             kept = rescue(x, predicted, move, pull, rest, tip_mass, held, failed, &bad);
 
 #ifdef CONTACT
-        if (any_near(&near))
+        const int exact = substep + 1 == substeps;
+        const whole meets = exact ? (whole)(-1) : pulled_in(&near, now, x, move, rest, held, inside);
+        if (any_near(&near) && any_lane(meets))
         {
             Points walked[NODES];
             for (int i = 1; i < NODES; ++i)
                 walked[i] = plus(x[i], move[i]);
-            const whole touched = walk_out(&near, now, walked, rest, held, inside, substep + 1 == substeps);
+            const whole touched = walk_out(&near, now, walked, rest, held, inside, exact) & meets;
             if (any_lane(touched))
                 for (int i = 2; i < NODES; ++i)
                     move[i] = select_points(move[i], minus(walked[i], x[i]), touched);

@@ -228,6 +228,21 @@ static void push_and_rub(const DirectStep& step, const Place& last, const Place&
     push_off(step, last, now, x, nearest_capsule(step, now, to), to, move, inside, round);
 }
 
+// Whether lengths have pulled the strand in, by more than what counts as on the surface before the step's end.
+static bool pulled_in(const DirectStep& step, const Place& now, const Strand& strand, const std::vector<Vec>& move,
+                      const std::vector<double>& inside, const std::vector<Ground>& ground, const Rounder& round)
+{
+    double least = 0.0;
+    for (size_t k = size_t(strand.held); k < size_t(strand.n); ++k)
+    {
+        const Vec at = strand.x[k] + move[k] + round(6.0 * (glm::length(strand.x[k]) + glm::length(move[k])));
+        least = std::min(least, nearest_capsule(step, now, at).distance + inside[k]);
+        if (ground[k].may_meet)
+            least = std::min(least, glm::dot(ground[k].normal, now.into(at)) - ground[k].level + inside[k]);
+    }
+    return least < -3e-4 * strand.rest;
+}
+
 // From root to tip: each node at its length from its parent and, if inside a body, where that length meets the plane
 // that touches the body under it, in the plane of its direction; found again six times.
 static bool walk_out(const DirectStep& step, const Place& now, const Strand& strand, const std::vector<double>& inside,
@@ -247,12 +262,12 @@ static bool walk_out(const DirectStep& step, const Place& now, const Strand& str
             const Vec at = parent + d + round(6.0 * (glm::length(parent) + rest));
             const Nearest body = nearest_body(step, now, ground[size_t(k)], at, exact, round);
             const double gap = body.distance + inside[size_t(k)];
-            if (!(gap < (exact ? 0.0 : -1e-5 * rest)))
+            if (!(gap < (exact ? 0.0 : -3e-4 * rest)))
                 break;
             touched = true;
             const Vec n = glm::normalize(body.away + round(8.0));
-            // Over the plane the parent is this high; the node is to be on it.
-            const double height = std::clamp(gap - glm::dot(n, d), -rest, rest);
+            // Over the plane the parent is this high; the node is to be on it, and a trifle out.
+            const double height = std::clamp(gap - glm::dot(n, d) - 1e-5 * rest, -rest, rest);
             Vec flat = d - glm::dot(n, d) * n;
             if (glm::length(flat) < 1e-4 * rest)
                 flat = std::abs(n.x) > 0.6 ? Vec(-n.z, 0.0, n.x) : Vec(0.0, n.z, -n.y);
@@ -336,7 +351,7 @@ static bool substep(Strand& strand, const DirectStep& step, const Place& last, c
         move = predicted;
         sound = rescue(strand, move, step.tip_mass, kept, round);
     }
-    if (step.on_grid || !step.bodies.empty())
+    if ((step.on_grid || !step.bodies.empty()) && (exact || pulled_in(step, now, strand, move, inside, ground, round)))
     {
         std::vector<Vec> walked;
         for (size_t i = 0; i < size_t(n); ++i)
