@@ -203,8 +203,8 @@ try
     }
     if (batches_ == 0)
         return {};
-    return {Mapped(passes_.device, passes_.buffers["picture"], pixels * 4 * sizeof(cl_half)), low_.x, low_.y,
-            high_.x - low_.x, high_.y - low_.y};
+    return {
+        passes_.buffers["picture"], pixels * 4 * sizeof(cl_half), low_.x, low_.y, high_.x - low_.x, high_.y - low_.y};
 }
 catch (const cl::Error& e)
 {

@@ -45,7 +45,8 @@ struct RasterStrands
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
 struct RasterPicture
 {
-    Mapped pixels;
+    cl::Buffer pixels;
+    size_t bytes = 0;
     int x = 0, y = 0, width = 0, height = 0;
 };
 
