@@ -19,21 +19,25 @@ static std::vector<cl_context_properties> current_gl()
         return std::vector<cl_context_properties>{CL_GL_CONTEXT_KHR, reinterpret_cast<cl_context_properties>(context),
                                                   kind, reinterpret_cast<cl_context_properties>(display)};
     };
+    const char* driver = SDL_GetCurrentVideoDriver();
+    if (!driver)
+        return {};
     if (epoxy_has_egl() && eglGetCurrentContext())
         return told(eglGetCurrentContext(), CL_EGL_DISPLAY_KHR, eglGetCurrentDisplay());
-    const char* driver = SDL_GetCurrentVideoDriver();
-    if (driver && std::string_view(driver) == "x11" && glXGetCurrentContext())
+    if (std::string_view(driver) == "x11" && glXGetCurrentContext())
         return told(glXGetCurrentContext(), CL_GLX_DISPLAY_KHR, glXGetCurrentDisplay());
     return {};
 }
 
 bool shares_gl(const Device& device)
 {
-    const std::vector<cl_context_properties> of_gl = current_gl(),
-                                             own = device.context.getInfo<CL_CONTEXT_PROPERTIES>();
-    for (size_t i = 0; !of_gl.empty() && i + 1 < own.size(); i += 2)
+    const std::vector<cl_context_properties> own = device.context.getInfo<CL_CONTEXT_PROPERTIES>();
+    for (size_t i = 0; i + 1 < own.size(); i += 2)
         if (own[i] == CL_GL_CONTEXT_KHR)
-            return own[i + 1] == of_gl[1];
+        {
+            const std::vector<cl_context_properties> of_gl = current_gl();
+            return !of_gl.empty() && own[i + 1] == of_gl[1];
+        }
     return false;
 }
 
@@ -80,19 +84,8 @@ SharedBuffer::~SharedBuffer()
     glDeleteBuffers(1, &id_);
 }
 
-// GL's memory must not be replaced as long as OpenCL has a view of it.
-void SharedBuffer::make_room(const Device& device, size_t bytes)
-{
-    if (view_() && bytes <= bytes_ && view_.getInfo<CL_MEM_CONTEXT>() == device.context)
-        return;
-    view_ = {};
-    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
-    glBufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(bytes), nullptr, GL_STREAM_DRAW);
-    view_ = cl::BufferGL(device.context, CL_MEM_READ_WRITE, id_);
-    bytes_ = bytes;
-}
-
-bool SharedBuffer::take(const Device& device, const cl::Buffer& from, size_t bytes)
+// False where the device shares no memory with GL. GL's memory must not be replaced as long as OpenCL has a view of it.
+bool SharedBuffer::make_room(const Device& device, size_t bytes)
 try
 {
     if (!shares_gl(device))
@@ -100,21 +93,57 @@ try
         view_ = {};
         return false;
     }
-    if (bytes == 0) // of which OpenCL makes no buffer
-        return true;
-    make_room(device, bytes);
+    if (bytes == 0 || (view_() && bytes <= bytes_ && view_.getInfo<CL_MEM_CONTEXT>() == device.context))
+        return true; // OpenCL makes no buffer of nothing
+    view_ = {};
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+    glBufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(bytes), nullptr, GL_STREAM_DRAW);
+    view_ = cl::BufferGL(device.context, CL_MEM_READ_WRITE, id_);
+    bytes_ = bytes;
+    return true;
+}
+catch (const cl::Error& e)
+{
+    throw fail("{} shares no {} MB with OpenGL: OpenCL error {} from {}", device.name, bytes >> 20, e.err(), e.what());
+}
+
+// One of them is the view.
+void SharedBuffer::copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, size_t bytes)
+try
+{
+    if (bytes == 0)
+        return;
     const std::vector<cl::Memory> views = {view_};
     glFinish(); // it may be drawing from what was there
     device.queue.enqueueAcquireGLObjects(&views);
-    device.queue.enqueueCopyBuffer(from, view_, 0, 0, bytes);
+    device.queue.enqueueCopyBuffer(from, to, 0, 0, bytes);
     device.queue.enqueueReleaseGLObjects(&views);
     device.queue.finish();
-    return true;
 }
 catch (const cl::Error& e)
 {
     view_ = {};
     throw fail("OpenCL error {} from {} in memory that {} shares with OpenGL", e.err(), e.what(), device.name);
+}
+
+bool SharedBuffer::take(const Device& device, const cl::Buffer& from, size_t bytes)
+{
+    if (!make_room(device, bytes))
+        return false;
+    copy(device, from, view_, bytes);
+    return true;
+}
+
+bool SharedBuffer::pack(const Device& device, const cl::Buffer& to, size_t bytes,
+                        const std::function<void()>& read_pixels)
+{
+    if (!make_room(device, bytes))
+        return false;
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, id_);
+    read_pixels();
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    copy(device, view_, to, bytes);
+    return true;
 }
 
 void SharedBuffer::unpack(const Device& device, const cl::Buffer& from, size_t bytes,

@@ -19,7 +19,7 @@ Device shared_with_gl(const Device& device);
 // Does it share memory with the GL context that is current?
 bool shares_gl(const Device& device);
 
-// A buffer of GL that is filled from buffers of OpenCL.
+// A buffer of GL that is filled from buffers of OpenCL, or the other way round.
 class SharedBuffer
 {
   public:
@@ -36,10 +36,15 @@ class SharedBuffer
     void unpack(const Device& device, const cl::Buffer& from, size_t bytes,
                 const std::function<void(uintptr_t)>& upload);
 
+    // Calls back for glReadPixels to put so many bytes into this buffer, which is bound to pack into, and copies them
+    // on the device. False, with nothing done, where it shares no memory with GL. Throws Error.
+    bool pack(const Device& device, const cl::Buffer& to, size_t bytes, const std::function<void()>& read_pixels);
+
     GLuint id() const { return id_; }
 
   private:
-    void make_room(const Device& device, size_t bytes);
+    bool make_room(const Device& device, size_t bytes);
+    void copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, size_t bytes);
 
     GLuint id_ = 0;
     cl::BufferGL view_; // OpenCL's, of as much as there is; none as long as nothing was taken

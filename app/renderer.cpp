@@ -380,8 +380,11 @@ void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                 rasteriser_->solid_depth(view.width, view.height));
+    const auto read_depth = [&](float* to)
+    { glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT, to); };
+    if (!raster_depth_.pack(rasteriser_->device(), rasteriser_->solid_buffer(view.width, view.height),
+                            size_t(view.width) * size_t(view.height) * sizeof(float), [&] { read_depth(nullptr); }))
+        read_depth(rasteriser_->solid_depth(view.width, view.height));
     const RasterPicture picture = rasteriser_->draw(*rastered_, view);
     if (picture.width == 0)
         return;

@@ -159,7 +159,7 @@ class Renderer
     std::unique_ptr<RasterStrands> rastered_;            // what it draws
     glm::ivec2 rastered_size_{0};                        // of its texture
     Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
-    SharedBuffer positions_, frames_, shades_, raster_pixels_;
+    SharedBuffer positions_, frames_, shades_, raster_depth_, raster_pixels_;
     GLuint frame_block_ = 0, params_block_ = 0;
     GLuint strand_array_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
