@@ -68,8 +68,8 @@ void Editor::keep_view()
 }
 
 Editor::Editor(const Options& options)
-    : window_(kWidth, kHeight, Window::SHOWN), device_(open_device(options)), style_(load_style(options)),
-      autosave_(recovery_folder()), device_wish_(options.device)
+    : window_(kWidth, kHeight, Window::SHOWN), device_(shared_with_gl(open_device(options))),
+      style_(load_style(options)), autosave_(recovery_folder()), device_wish_(options.device)
 {
     recoveries_ = find_recoveries(recovery_folder());
     IMGUI_CHECKVERSION();

@@ -304,7 +304,7 @@ void Editor::draw_status()
             sum += ms;
         }
         row("all passes", sum);
-        ImGui::TextDisabled("%s", device_.name.c_str());
+        ImGui::TextDisabled("%s, %s", device_.name.c_str(), shares_gl(device_) ? "shared" : "mapped");
         ImGui::TextDisabled("%s", renderer_->name().c_str());
     }
     ImGui::TextDisabled("%s", trial_.said(style_.params).c_str());

@@ -66,15 +66,19 @@ Rasteriser::Rasteriser(const Device& device)
 {
 }
 
-float* Rasteriser::solid_depth(int width, int height)
+const cl::Buffer& Rasteriser::solid_buffer(int width, int height)
 {
     constexpr size_t kBeyond = 16; // lanes may look past the last pixel
-    const size_t bytes = (size_t(width) * size_t(height) + kBeyond) * sizeof(float);
-    passes_.room_for("solid", bytes);
     width_ = width;
     height_ = height;
+    return passes_.room_for("solid", (size_t(width) * size_t(height) + kBeyond) * sizeof(float));
+}
+
+float* Rasteriser::solid_depth(int width, int height)
+{
+    const size_t bytes = size_t(width) * size_t(height) * sizeof(float);
     solid_ = static_cast<float*>(
-        passes_.device.queue.enqueueMapBuffer(passes_.buffers["solid"], CL_TRUE, CL_MAP_WRITE, 0, bytes));
+        passes_.device.queue.enqueueMapBuffer(solid_buffer(width, height), CL_TRUE, CL_MAP_WRITE, 0, bytes));
     return solid_;
 }
 
@@ -127,8 +131,9 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
 RasterPicture Rasteriser::draw(const RasterStrands& strands, const RasterView& view)
 try
 {
-    assert(solid_ && view.width == width_ && view.height == height_);
-    passes_.device.queue.enqueueUnmapMemObject(passes_.buffers["solid"], std::exchange(solid_, nullptr));
+    assert(view.width == width_ && view.height == height_);
+    if (solid_)
+        passes_.device.queue.enqueueUnmapMemObject(passes_.buffers["solid"], std::exchange(solid_, nullptr));
     passes_.forget_times();
     batches_ = 0;
     pieces_ = 0;
@@ -203,8 +208,8 @@ try
     }
     if (batches_ == 0)
         return {};
-    return {Mapped(passes_.device, passes_.buffers["picture"], pixels * 4 * sizeof(cl_half)), low_.x, low_.y,
-            high_.x - low_.x, high_.y - low_.y};
+    return {
+        passes_.buffers["picture"], pixels * 4 * sizeof(cl_half), low_.x, low_.y, high_.x - low_.x, high_.y - low_.y};
 }
 catch (const cl::Error& e)
 {

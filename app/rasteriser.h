@@ -45,7 +45,8 @@ struct RasterStrands
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
 struct RasterPicture
 {
-    Mapped pixels;
+    cl::Buffer pixels;
+    size_t bytes = 0;
     int x = 0, y = 0, width = 0, height = 0;
 };
 
@@ -56,7 +57,9 @@ class Rasteriser
   public:
     explicit Rasteriser(const Device& device);
 
-    // Where the depth of what is solid is to be written, 0 to 1, row by row, before draw(); valid until then.
+    // Where the depth of what is solid is to be written before draw(), 0 to 1, row by row: on the device, or, valid
+    // until then, on the host.
+    const cl::Buffer& solid_buffer(int width, int height);
     float* solid_depth(int width, int height);
     RasterPicture draw(const RasterStrands& strands, const RasterView& view);
 
@@ -77,7 +80,7 @@ class Rasteriser
                     int points_end, const std::string& options);
 
     Passes passes_;
-    float* solid_ = nullptr; // mapped
+    float* solid_ = nullptr; // mapped, or none
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span
     size_t pieces_ = 0;

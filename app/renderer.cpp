@@ -77,7 +77,6 @@ FrameInput frame_input(const Simulation& simulation, const Camera& camera)
     frame.simulation = &simulation;
     const Solver& solver = simulation.solver();
     frame.drawn_positions = solver.drawn_positions();
-    frame.drawn_frames = solver.drawn_frames();
     frame.guide_positions = solver.guide_positions();
     frame.optical_depth = solver.optical_depth();
     frame.params = simulation.params();
@@ -110,10 +109,9 @@ static void attribute(GLuint index, GLint size, GLsizei stride, size_t offset)
 Renderer::Renderer(const std::filesystem::path& shader_folder)
     : shader_folder_(shader_folder), programs_(std::make_unique<Programs>(shader_folder))
 {
-    for (GLuint* buffer :
-         {&frame_block_, &params_block_, &position_buffer_, &frame_buffer_, &color_buffer_, &index_buffer_,
-          &mesh_buffer_, &mesh_indices_, &sphere_buffer_, &sphere_indices_, &guide_buffer_, &ring_buffer_,
-          &ring_indices_, &braid_buffer_, &ground_buffer_, &ground_indices_, &solid_colors_})
+    for (GLuint* buffer : {&frame_block_, &params_block_, &color_buffer_, &index_buffer_, &mesh_buffer_, &mesh_indices_,
+                           &sphere_buffer_, &sphere_indices_, &guide_buffer_, &ring_buffer_, &ring_indices_,
+                           &braid_buffer_, &ground_buffer_, &ground_indices_, &solid_colors_})
         *buffer = make_buffer();
     for (GLuint* array :
          {&strand_array_, &mesh_array_, &sphere_array_, &ring_array_, &ground_array_, &guide_array_, &empty_array_})
@@ -128,9 +126,9 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     }
 
     glBindVertexArray(strand_array_);
-    glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
     attribute(0, 4, 0, 0);
-    glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, frames_.id());
     attribute(1, 4, 0, 0);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
 
@@ -234,9 +232,9 @@ Renderer::~Renderer()
         glDeleteRenderbuffers(1, &target->depth);
         glDeleteTextures(1, &target->texture);
     }
-    for (GLuint buffer : {frame_block_, params_block_, position_buffer_, frame_buffer_, color_buffer_, index_buffer_,
-                          mesh_buffer_, mesh_indices_, sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_,
-                          ring_buffer_, ring_indices_, braid_buffer_, ground_buffer_, ground_indices_, solid_colors_})
+    for (GLuint buffer : {frame_block_, params_block_, color_buffer_, index_buffer_, mesh_buffer_, mesh_indices_,
+                          sphere_buffer_, sphere_indices_, guide_buffer_, leader_buffer_, ring_buffer_, ring_indices_,
+                          braid_buffer_, ground_buffer_, ground_indices_, solid_colors_})
         glDeleteBuffers(1, &buffer);
     for (GLuint array :
          {strand_array_, mesh_array_, sphere_array_, ring_array_, ground_array_, guide_array_, empty_array_})
@@ -382,8 +380,11 @@ void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                 rasteriser_->solid_depth(view.width, view.height));
+    const auto read_depth = [&](float* to)
+    { glReadPixels(0, 0, view.width, view.height, GL_DEPTH_COMPONENT, GL_FLOAT, to); };
+    if (!raster_depth_.pack(rasteriser_->device(), rasteriser_->solid_buffer(view.width, view.height),
+                            size_t(view.width) * size_t(view.height) * sizeof(float), [&] { read_depth(nullptr); }))
+        read_depth(rasteriser_->solid_depth(view.width, view.height));
     const RasterPicture picture = rasteriser_->draw(*rastered_, view);
     if (picture.width == 0)
         return;
@@ -400,8 +401,12 @@ void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
     glPixelStorei(GL_UNPACK_ROW_LENGTH, view.width);
     glPixelStorei(GL_UNPACK_SKIP_PIXELS, picture.x);
     glPixelStorei(GL_UNPACK_SKIP_ROWS, picture.y);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, picture.x, picture.y, picture.width, picture.height, GL_RGBA, GL_HALF_FLOAT,
-                    picture.pixels.as<char>());
+    raster_pixels_.unpack(rasteriser_->device(), picture.pixels, picture.bytes,
+                          [&](uintptr_t pixels)
+                          {
+                              glTexSubImage2D(GL_TEXTURE_2D, 0, picture.x, picture.y, picture.width, picture.height,
+                                              GL_RGBA, GL_HALF_FLOAT, reinterpret_cast<const void*>(pixels));
+                          });
     for (const GLenum back : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
         glPixelStorei(back, 0);
     glViewport(0, 0, view.width, view.height);

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/gl.h"
+#include "app/gl_sharing.h"
 #include "app/image.h"
 #include "app/strand_colors.h"
 #include "sim/lights.h"
@@ -40,7 +41,7 @@ void keep_camera(const Camera& camera, HairParams& params);
 struct FrameInput
 {
     const Simulation* simulation = nullptr; // meshes, colliders and style; the views below are of its last draw()
-    Mapped drawn_positions, drawn_frames, guide_positions, optical_depth;
+    Mapped drawn_positions, guide_positions, optical_depth;
     HairParams params; // as authored
     Lighting lighting;
     Camera camera;
@@ -117,6 +118,7 @@ class Renderer
     void upload_braids(const FrameInput& frame);
     void make_rings();
     void upload_looks(const std::vector<StrandLook>& looks);
+    void upload_nodes(const FrameInput& frame);
     void upload_colors(const FrameInput& frame);
     void upload_shades();
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
@@ -157,8 +159,9 @@ class Renderer
     std::unique_ptr<RasterStrands> rastered_;            // what it draws
     glm::ivec2 rastered_size_{0};                        // of its texture
     Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
+    SharedBuffer positions_, frames_, shades_, raster_depth_, raster_pixels_;
     GLuint frame_block_ = 0, params_block_ = 0;
-    GLuint strand_array_ = 0, position_buffer_ = 0, frame_buffer_ = 0, color_buffer_ = 0, index_buffer_ = 0;
+    GLuint strand_array_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
     GLuint sphere_array_ = 0, sphere_buffer_ = 0, sphere_indices_ = 0;
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;

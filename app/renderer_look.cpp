@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cstring>
 
 namespace coif
 {
@@ -174,11 +173,23 @@ void Renderer::upload_shades()
     if (rows > most || kShadesInRow > most)
         throw fail("this driver's textures hold too few colours for {} strands; set render.method to opencl",
                    volume.strands);
-    std::vector<cl_ushort> texels(size_t(rows) * kShadesInRow * 4); // halves: red, green, blue and nothing
-    const Mapped mapped(shading_->device(), shading_->buffers().at("shaded"), std::max<size_t>(count, 1) * 8);
-    std::memcpy(texels.data(), mapped.as<char>(), count * 8);
+    constexpr size_t kTexel = 8; // bytes: halves of red, green, blue and nothing
+    const int whole = int(count / kShadesInRow), rest = int(count % kShadesInRow);
     glBindTexture(GL_TEXTURE_2D, shades_texture_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, kShadesInRow, rows, 0, GL_RGBA, GL_HALF_FLOAT, texels.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, kShadesInRow, rows, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+    shades_.unpack(shading_->device(), shading_->buffers().at("shaded"), count * kTexel,
+                   [&](uintptr_t colors)
+                   {
+                       const auto put = [&](int row, int width, int height)
+                       {
+                           const uintptr_t at = colors + size_t(row) * kShadesInRow * kTexel;
+                           glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, width, height, GL_RGBA, GL_HALF_FLOAT,
+                                           reinterpret_cast<const void*>(at));
+                       };
+                       put(0, kShadesInRow, whole);
+                       if (rest > 0)
+                           put(whole, rest, 1);
+                   });
 }
 
 // Points the bound array's colours at those of the next thing that is drawn, which has so many points.

@@ -176,6 +176,22 @@ void Renderer::upload_looks(const std::vector<StrandLook>& looks)
                  GL_FLOAT, rows.data());
 }
 
+// Where the drawn nodes are, and how they are turned.
+void Renderer::upload_nodes(const FrameInput& frame)
+{
+    const Solver& solver = frame.simulation->solver();
+    const auto fill = [](const SharedBuffer& buffer, const Mapped& nodes)
+    {
+        glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(nodes.bytes()), nodes.as<float>(), GL_STREAM_DRAW);
+    };
+    const size_t bytes = frame.drawn_positions.bytes();
+    if (!positions_.take(solver.device(), solver.buffers().at("drawn_position"), bytes))
+        fill(positions_, frame.drawn_positions);
+    if (!frames_.take(solver.device(), solver.buffers().at("drawn_frame"), bytes))
+        fill(frames_, solver.drawn_frames());
+}
+
 // One value a drawn node, or, where the hair has its own colours, none at all.
 void Renderer::upload_colors(const FrameInput& frame)
 {
@@ -248,12 +264,7 @@ void Renderer::upload(const FrameInput& frame)
     {
         upload_braids(frame);
         upload_looks(frame.simulation->solver().groom().looks);
-        glBindBuffer(GL_ARRAY_BUFFER, position_buffer_);
-        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_positions.bytes()), frame.drawn_positions.as<float>(),
-                     GL_STREAM_DRAW);
-        glBindBuffer(GL_ARRAY_BUFFER, frame_buffer_);
-        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(frame.drawn_frames.bytes()), frame.drawn_frames.as<float>(),
-                     GL_STREAM_DRAW);
+        upload_nodes(frame);
         upload_colors(frame);
         upload_order(frame, glm::vec3(frame.camera.position() - frame.simulation->solver().head().origin),
                      glm::vec3(glm::normalize(frame.camera.target - frame.camera.position())));

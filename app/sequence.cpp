@@ -127,8 +127,8 @@ int shoot_sequence(const Options& options, const ShotOptions& shot, const Sequen
                    "coif: {} needs ffmpeg, which is not installed (on Debian: apt-get install ffmpeg); "
                    "here are the pictures instead\n",
                    options.output);
-    const Device device = open_device(options);
     const Window window(16, 16, Window::HIDDEN);
+    const Device device = shared_with_gl(open_device(options));
     Studio studio(device, style, motion, shot);
     std::optional<Film> film;
     if (film_wanted && !without)

@@ -112,10 +112,10 @@ int sheet(const Options& options, const ShotOptions& cell, const SheetOptions& w
     for (const std::string& set : options.sets)
         assign(any, set); // what is wrong with all is said once
     const Motion motion = find_motion(options.motion);
-    const Device device = open_device(options);
     std::optional<Window> window;
     if (!draw)
         window.emplace(16, 16, Window::HIDDEN);
+    const Device device = shared_with_gl(open_device(options));
     // Each has a studio of its own: what one leaves behind must not show in the next.
     const auto draw_here = [&](size_t i)
     {

@@ -76,8 +76,8 @@ int level_sheet(const Options& options, const ShotOptions& cell, const SheetOpti
     const SheetLayout at = lay_out(styles * kPictures, std::max(columns, 0) * kPictures, cell.width, cell.height, 2);
     check_folder(options.output);
     const Motion motion = find_motion(options.motion);
-    const Device device = open_device(options);
     const Window window(16, 16, Window::HIDDEN);
+    const Device device = shared_with_gl(open_device(options));
     const Progress progress;
     Image page = empty_sheet(at);
     for (int i = 0; i < styles; ++i)

@@ -174,8 +174,8 @@ template <typename Take> static auto at_its_time(const Options& options, const S
     check_shot(options, shot);
     const Hairstyle style = load_style(options);
     const Motion motion = find_motion(options.motion);
-    const Device device = open_device(options);
     const Window window(16, 16, Window::HIDDEN);
+    const Device device = shared_with_gl(open_device(options));
     const Progress progress;
     progress.say(style.name() + ": falls to rest"); // thousands of guides take minutes
     Studio studio(device, style, motion, shot);

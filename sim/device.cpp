@@ -59,13 +59,21 @@ static cl::Device pick_device(const std::string& wish)
     return fitting.front();
 }
 
+Device in_context(Device device, std::vector<cl_context_properties> properties)
+{
+    const cl_platform_id platform = device.device.getInfo<CL_DEVICE_PLATFORM>();
+    properties.insert(properties.end(), {CL_CONTEXT_PLATFORM, cl_context_properties(platform), 0});
+    device.context = cl::Context(device.device, properties.data());
+    device.queue = cl::CommandQueue(device.context, device.device, CL_QUEUE_PROFILING_ENABLE);
+    return device;
+}
+
 Device open_device(const std::string& wish, const std::filesystem::path& kernel_folder)
 try
 {
     Device result;
     result.device = pick_device(wish);
-    result.context = cl::Context(result.device);
-    result.queue = cl::CommandQueue(result.context, result.device, CL_QUEUE_PROFILING_ENABLE);
+    result = in_context(result, {});
     result.kernel_folder = kernel_folder;
     result.name = result.device.getInfo<CL_DEVICE_NAME>();
     result.is_gpu = result.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU;

@@ -58,6 +58,10 @@ struct Device
 // device of any kind. Throws Error naming the devices there are.
 Device open_device(const std::string& wish, const std::filesystem::path& kernel_folder);
 
+// The device, with nothing built or allocated on it yet, in another context, which has such properties beside its
+// platform: names and their values. Throws cl::Error.
+Device in_context(Device device, std::vector<cl_context_properties> properties);
+
 // kernels/<file>.cl must define the kernel of its name: `kernel void <file>(...)`, without its folder. Throws Error
 // with the compiler's words.
 Kernel load_kernel(const Device& device, const std::string& file, const std::string& options);

@@ -144,6 +144,7 @@ class Scene
         for (size_t i = 0; i < count; ++i)
             depth[i] = solid.empty() ? 1.0f : solid[i];
         const RasterPicture picture = rasteriser.draw(drawn, view);
+        const Mapped mapped(rasteriser.device(), picture.pixels, picture.bytes);
         Pixels pixels;
         pixels.values.resize(4 * count);
         pixels.bytes.resize(8 * count);
@@ -151,7 +152,7 @@ class Scene
         for (int y = picture.y; y < picture.y + picture.height; ++y)
             for (int i = 4 * (y * view.width + picture.x); i < 4 * (y * view.width + picture.x + picture.width); ++i)
             {
-                const uint16_t half = picture.pixels.as<uint16_t>()[i];
+                const uint16_t half = mapped.as<uint16_t>()[i];
                 pixels.values[size_t(i)] = of_half(half);
                 std::memcpy(&pixels.bytes[size_t(2 * i)], &half, 2);
             }

@@ -174,8 +174,8 @@ int advise(const Options& options, const AdviseOptions& wanted)
     if (wanted.apply)
         check_lean(target); // before a minute's work, not after
     const Motion motion = find_motion(wanted.motion);
-    const Device device = open_device(options);
     const Window window(16, 16, Window::HIDDEN);
+    const Device device = shared_with_gl(open_device(options));
     Renderer renderer(data_folder() / "shaders");
     Trial trial{device, renderer, motion, wanted.seconds, 0.01 * double(tolerance)};
     const Progress line;
