@@ -77,7 +77,7 @@ CURVE_FUNCTION REAL scaled_bessel(REAL x)
     p = 3.0899424f + t * p;
     p = 3.5156229f + t * p;
     p = exp(-low) * (1.0f + t * p);
-    REAL high = max(x, 3.75f), u = 3.75f / high;
+    REAL inverse = 1.0f / max(x, 3.75f), u = 3.75f * inverse;
     REAL q = -0.01647633f + 0.00392377f * u;
     q = 0.02635537f + u * q;
     q = -0.02057706f + u * q;
@@ -86,7 +86,7 @@ CURVE_FUNCTION REAL scaled_bessel(REAL x)
     q = 0.00225319f + u * q;
     q = 0.01328592f + u * q;
     q = 0.39894228f + u * q;
-    return SELECT(p, q / sqrt(high), x > 3.75f);
+    return SELECT(p, q * sqrt(inverse), x > 3.75f);
 }
 
 // M of d'Eon 2011, eq. 7, written so that nothing overflows whatever the variance (above 0).
@@ -103,34 +103,36 @@ CURVE_FUNCTION REAL leaning(FibreAngles a, float sine, float cosine, REAL v)
     return longitudinal(a.si, a.ci, a.so * cosine + a.co * sine, fabs(a.co * cosine - a.so * sine), v);
 }
 
-CURVE_FUNCTION REAL logistic(REAL x, REAL s)
+// Two logistics of scale 1 / inverse_s, at x and at y. Divisions are what most of the time goes into: one serves both.
+CURVE_FUNCTION REAL logistics(REAL x, REAL y, REAL inverse_s)
 {
-    REAL e = exp(-fabs(x) / s);
-    return e / (s * squared(1.0f + e));
+    REAL e = exp(-fabs(x) * inverse_s), f = exp(-fabs(y) * inverse_s);
+    REAL under_e = squared(1.0f + e), under_f = squared(1.0f + f);
+    return inverse_s * (e * under_f + f * under_e) / (under_e * under_f);
 }
 
-// Share of a trimmed logistic (Chiang 2016, eq. 11) that lies below x, in [-pi, pi].
-CURVE_FUNCTION REAL logistic_share(REAL x, REAL s)
-{
-    REAL whole_e = exp(-FIBRE_PI / s), e = exp(-fabs(x) / s);
-    REAL above = (1.0f - e) / (1.0f + e) / ((1.0f - whole_e) / (1.0f + whole_e));
-    return 0.5f + 0.5f * SELECT(-above, above, x > 0.0f);
-}
-
-// Of the light within 90 degrees of `angle` (in [-pi, pi]) about the fibre, the share that a lobe has there.
+// Of the light within 90 degrees of `angle` (in [-pi, pi]) about the fibre, the share that a lobe has there: a trimmed
+// logistic (Chiang 2016, eq. 11) whose share below x is 1/2 + sign(x) / 2 (1 - e) / (1 + e) (1 + w) / (1 - w), with
+// e = exp(-|x| / s) and w = exp(-pi / s).
 CURVE_FUNCTION REAL logistic_half(REAL angle, REAL s)
 {
-    REAL a = fabs(angle);
-    return logistic_share(min(a + 0.5f * FIBRE_PI, FIBRE_PI), s) - logistic_share(a - 0.5f * FIBRE_PI, s) +
-           logistic_share(max(a - 1.5f * FIBRE_PI, -FIBRE_PI), s);
+    REAL inverse_s = 1.0f / s, a = fabs(angle), w = exp(-FIBRE_PI * inverse_s);
+    REAL to = exp(-min(a + 0.5f * FIBRE_PI, FIBRE_PI) * inverse_s), from = exp(-fabs(a - 0.5f * FIBRE_PI) * inverse_s),
+         around = exp(-min(1.5f * FIBRE_PI - a, FIBRE_PI) * inverse_s);
+    REAL below = (1.0f - from) * (1.0f + to) * (1.0f + around);
+    REAL share = (1.0f - to) * (1.0f + from) * (1.0f + around) - SELECT(-below, below, a > 0.5f * FIBRE_PI) -
+                 (1.0f - around) * (1.0f + to) * (1.0f + from);
+    return 0.5f + 0.5f * share * (1.0f + w) / ((1.0f + to) * (1.0f + from) * (1.0f + around) * (1.0f - w));
 }
 
 // Fresnel's share of unpolarised light that a dielectric reflects.
 CURVE_FUNCTION REAL fresnel(REAL cosine, float ior)
 {
     REAL c = clamp(cosine, 0.0f, 1.0f);
-    REAL t = sqrt(max(1.0f - (1.0f - c * c) / (ior * ior), 0.0f));
-    REAL s = (c - ior * t) / (c + ior * t), p = (ior * c - t) / (ior * c + t);
+    float slower = 1.0f / (ior * ior);
+    REAL t = sqrt(max(1.0f - (1.0f - c * c) * slower, 0.0f));
+    REAL under_s = c + ior * t, under_p = ior * c + t, inverse = 1.0f / (under_s * under_p);
+    REAL s = (c - ior * t) * under_p * inverse, p = (ior * c - t) * under_s * inverse;
     return 0.5f * (s * s + p * p);
 }
 
@@ -172,8 +174,9 @@ CURVE_FUNCTION LobeHeights lobe_heights(Fibre f, FibreAngles a, REAL further)
 CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, int nodes, bool around)
 {
     // Bravais' index of the normal plane (Marschner et al. 2003, section 4.1), and the cosine of the way inside.
-    REAL bent = sqrt(max(f.ior * f.ior - a.so * a.so, 1e-6f)) / a.co;
-    REAL inner = 1.0f / sqrt(max(1.0f - a.so * a.so / (f.ior * f.ior), 1e-6f));
+    float slower = 1.0f / (f.ior * f.ior);
+    REAL per_bent = a.co / sqrt(max(f.ior * f.ior - a.so * a.so, 1e-6f));
+    REAL inner = 1.0f / sqrt(max(1.0f - a.so * a.so * slower, 1e-6f));
     float slice = 2.0f / (float)nodes, share = 1.0f / (float)nodes;
     REAL white = m.r * 0.25f * a.cos_half * fresnel(a.co * a.cos_half, f.ior);
     if (around) // cos(phi / 2) / 4 averaged over the half plane; the mean of the angle stands for it in F
@@ -187,14 +190,15 @@ CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, 
     {
         float h = ((float)i + 0.5f) * slice, cos_outer = sqrt(1.0f - h * h);
         float outer = asin(h);
-        REAL sin_inner = h / bent, cos_inner = sqrt(max(1.0f - sin_inner * sin_inner, 1e-6f));
+        REAL sin_inner = h * per_bent, cos_inner = sqrt(max(1.0f - sin_inner * sin_inner, 1e-6f));
         REAL turn = arc_sine(sin_inner);
         REAL mirrored = fresnel(a.co * cos_outer, f.ior), entering = squared(1.0f - mirrored) * share;
         REAL way = -2.0f * cos_inner * inner;
 
         REAL through = 2.0f * turn - 2.0f * outer + FIBRE_PI;
         REAL back = 4.0f * turn - 2.0f * outer;
-        REAL per_turn = 2.0f / (bent * cos_inner), per_outer = 2.0f / cos_outer;
+        REAL per_turn = 2.0f * per_bent / cos_inner;
+        float per_outer = 2.0f / cos_outer;
         REAL s_tt = max(f.logistic, min(0.25f * slice * fabs(per_turn - per_outer), FIBRE_PI));
         REAL s_trt = max(f.logistic, min(0.25f * slice * fabs(2.0f * per_turn - per_outer), FIBRE_PI));
         REAL n_tt, n_trt;
@@ -207,20 +211,22 @@ CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, 
         }
         else
         {
-            REAL e_tt = exp(-FIBRE_PI / s_tt), e_trt = exp(-FIBRE_PI / s_trt);
-            n_tt = (logistic(wrapped(a.phi - through), s_tt) + logistic(wrapped(a.phi + through), s_tt)) *
-                   ((1.0f + e_tt) / (1.0f - e_tt));
-            n_trt = (logistic(wrapped(a.phi - back), s_trt) + logistic(wrapped(a.phi + back), s_trt)) *
-                    ((1.0f + e_trt) / (1.0f - e_trt));
+            REAL per_tt = 1.0f / s_tt, per_trt = 1.0f / s_trt;
+            REAL e_tt = exp(-FIBRE_PI * per_tt), e_trt = exp(-FIBRE_PI * per_trt);
+            n_tt =
+                logistics(wrapped(a.phi - through), wrapped(a.phi + through), per_tt) * ((1.0f + e_tt) / (1.0f - e_tt));
+            n_trt =
+                logistics(wrapped(a.phi - back), wrapped(a.phi + back), per_trt) * ((1.0f + e_trt) / (1.0f - e_trt));
         }
         REAL tt = m.tt * n_tt * entering, trt = m.trt * n_trt * entering * mirrored;
         REAL rest = m.rest * entering * mirrored * mirrored * 2.0f;
-        REAL t = exp(absorb.r * way);
-        sum.r += t * (tt + t * (trt + t * rest / (1.0f - t * mirrored)));
-        t = exp(absorb.g * way);
-        sum.g += t * (tt + t * (trt + t * rest / (1.0f - t * mirrored)));
-        t = exp(absorb.b * way);
-        sum.b += t * (tt + t * (trt + t * rest / (1.0f - t * mirrored)));
+        // Each channel's series of further reflections ends in a division; one serves all three.
+        Rgb t = rgb(exp(absorb.r * way), exp(absorb.g * way), exp(absorb.b * way));
+        Rgb under = rgb(1.0f - t.r * mirrored, 1.0f - t.g * mirrored, 1.0f - t.b * mirrored);
+        rest /= under.r * under.g * under.b;
+        sum.r += t.r * (tt + t.r * (trt + t.r * rest * under.g * under.b));
+        sum.g += t.g * (tt + t.g * (trt + t.g * rest * under.r * under.b));
+        sum.b += t.b * (tt + t.b * (trt + t.b * rest * under.r * under.g));
     }
     return sum;
 }

@@ -15,7 +15,7 @@ static inline real beside(real share, real at, int size)
 }
 
 // Bilinear between the four rays about (u, v) in each lane's slice.
-static inline real depth_in_slice(global const float* depth, LookRay ray, Slices s, real u, real v, whole slice)
+LAID_IN real depth_in_slice(global const float* depth, LookRay ray, Slices s, real u, real v, whole slice)
 {
     const real passed = TO_REAL(slice);
     const real ru = ring_lanes(u - ray.slant.x * passed, s.u), rv = ring_lanes(v - ray.slant.y * passed, s.v);
@@ -31,7 +31,7 @@ static inline real depth_in_slice(global const float* depth, LookRay ray, Slices
 
 // At a point, in voxels from the first one's middle. Outside of the volume nothing is in the way but what lies in it
 // further to the light.
-static inline real depth_to(global const float* depth, LookRay ray, Points p, constant LookVolume* volume)
+LAID_IN real depth_to(global const float* depth, LookRay ray, Points p, constant LookVolume* volume)
 {
     // Forward along the ray to where it comes into the volume.
     const real last_x = (real)(volume->x - 1) - 1e-3f, last_y = (real)(volume->y - 1) - 1e-3f,

@@ -34,7 +34,7 @@ static inline real wave_at(global const float* table, int side, real place)
     return low + (LANES_LOAD(b) - low) * (at - below);
 }
 
-#define CURVE_FUNCTION static inline
+#define CURVE_FUNCTION LAID_IN
 #define REAL real
 #define REAL4 Reals
 #define WHOLE whole
