@@ -1,0 +1,364 @@
+// Hair that is seen from far away steps with half its nodes, and nobody sees it.
+#include "kernels/thin.h"
+#include "sim/health.h"
+#include "sim/simulation.h"
+#include "tests/on_device.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coif
+{
+namespace
+{
+
+using Vec = glm::dvec3;
+
+Hairstyle style_of(std::initializer_list<const char*> sets)
+{
+    Hairstyle style;
+    for (const char* set : {"interpolation.strands=60", "grid.resolution=20", "look.self_shadow=0"})
+        assign(style, set);
+    for (const char* set : sets)
+        assign(style, set);
+    return style;
+}
+
+// From straight before the head; the picture has 720 lines.
+View from(double distance)
+{
+    return {{0.0, 0.0, distance}, {0.0, 0.0, -1.0}, 0.5 * 720.0 / std::tan(glm::radians(15.0))};
+}
+
+const View kHorizon = from(1e4); // everything is far
+
+std::vector<Vec> nodes_of(const Simulation& simulation)
+{
+    return nodes_in(test_device(), simulation.solver().buffers().at("position"), simulation.solver().groom());
+}
+
+// Root mean square over the nodes that may move, m.
+double apart(const std::vector<Vec>& a, const std::vector<Vec>& b, int nodes)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+    return std::sqrt(sum / double(a.size()) * nodes / (nodes - 2));
+}
+
+bool all_far(const Simulation& simulation)
+{
+    return simulation.solver().blocks_thin() == simulation.solver().groom().blocks;
+}
+
+void expect_sound(const Simulation& simulation, const char* when)
+{
+    const Health health = measure_health(simulation.solver(), simulation.params(), false);
+    EXPECT_TRUE(health.finite) << when;
+    EXPECT_LT(health.stretch_max, 1e-3) << when;
+    EXPECT_LT(health.penetration_max, 5e-4) << when;
+    const std::vector<int> resets = simulation.solver().resets();
+    EXPECT_EQ(std::ranges::count(resets, 0), std::ssize(resets)) << when;
+}
+
+TEST(Far, WithoutToleranceOrViewNothingChangesAByte)
+{
+    Simulation plain(test_device(), style_of({})), seen(test_device(), style_of({})),
+        unseen(test_device(), style_of({"solver.far_tolerance=1"})),
+        near(test_device(), style_of({"solver.far_tolerance=1"}));
+    seen.set_view(kHorizon);
+    near.set_view(from(0.9));
+    for (Simulation* each : {&plain, &seen, &unseen, &near})
+    {
+        each->play(find_motion("shake"));
+        for (int i = 0; i < 20; ++i)
+            each->step(each->hand());
+        EXPECT_EQ(each->solver().blocks_thin(), 0);
+        EXPECT_FALSE(each->solver().buffers().contains("thin_position"));
+        EXPECT_EQ(bytes_of(test_device(), each->solver().buffers().at("position")),
+                  bytes_of(test_device(), plain.solver().buffers().at("position")));
+    }
+}
+
+// The step of a thin chain is byte for byte that of a groom with so few nodes, which the plain twin vouches for
+// (test_passes_direct.cpp): bodies, waves, wind and all.
+TEST(Far, StepsAsAGroomOfSoManyNodes)
+{
+    for (const int width : {1, 8, 16})
+    {
+        const Device device = with_width(width);
+        Random random(7);
+        Groom groom = random_groom(random, 40, 12, 40);
+        HairParams params;
+        params.bending_droop = 8.0f;
+        params.forces_wind = F4(3.0f, 0.0f, 1.0f, 0.0f);
+        params.forces_repulsion = 0.0f;
+        params.solver_far_tolerance = 20.0f;
+        Solver few(device, params, thinned(groom), {});
+        groom.bend_factor.assign(size_t(groom.blocks) * LANES, 1.5f);
+        Solver all(device, params, groom, {});
+        Groom thin = thinned(groom);
+        thin.drawn = groom.drawn; // a groom of its own
+        few.set_groom(thin);
+        all.let_blocks_sleep(true);
+        all.set_view(kHorizon);
+        all.set_thin_error(0.0);
+        double time = 0.0;
+        const auto step = [&](Solver& solver, int i)
+        {
+            const Pose head = {
+                {0.02 * std::sin(0.3 * i), 0.0, 0.0}, glm::angleAxis(0.4 * std::sin(0.2 * i), Vec(0, 1, 0)), {}};
+            solver.keep_awake();
+            solver.step({{head, time = i / 60.0, 1.0f / 60.0f}});
+        };
+        for (Solver* solver : {&few, &all})
+        {
+            solver->set_body({lumpy_body(), 1.0f, {}});
+            solver->set_colliders({{{0.12f, -0.05f, 0.0f}, 0.05f, false, {}}});
+            for (int i = 0; i < 3; ++i)
+                step(*solver, i);
+        }
+        ASSERT_EQ(all.blocks_thin(), groom.blocks);
+        const char* state[] = {"position", "velocity", "multiplier"};
+        for (const char* name : state)
+        {
+            const cl::Buffer& to = few.buffers().at(name);
+            device.queue.enqueueCopyBuffer(all.buffers().at(std::string("thin_") + name), to, 0, 0,
+                                           to.getInfo<CL_MEM_SIZE>());
+        }
+        for (const char* name : {"pace", "tension"})
+            device.queue.enqueueCopyBuffer(all.buffers().at(name), few.buffers().at(name), 0, 0,
+                                           all.buffers().at(name).getInfo<CL_MEM_SIZE>());
+        for (int i = 3; i < 40; ++i)
+            for (Solver* solver : {&few, &all})
+                step(*solver, i);
+        for (const char* name : state)
+            EXPECT_EQ(bytes_of(device, few.buffers().at(name)),
+                      bytes_of(device, all.buffers().at(std::string("thin_") + name)))
+                << name << ", width " << width;
+    }
+}
+
+// All nodes are on the cubics through those that were moved, as the plain twin has it.
+TEST(Far, FillsInAsItsTwin)
+{
+    for (const int width : {1, 8, 16})
+    {
+        const Device device = with_width(width);
+        Random random(3);
+        const Groom groom = random_groom(random, 40, 12, 40);
+        HairParams params;
+        params.forces_repulsion = 0.0f;
+        params.solver_far_tolerance = 20.0f;
+        Solver solver(device, params, groom, {});
+        solver.let_blocks_sleep(true);
+        solver.set_view(kHorizon);
+        solver.set_thin_error(0.0);
+        for (int i = 1; i < 10; ++i)
+            solver.step({{{{0.02 * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {}}, i / 60.0, 1.0f / 60.0f}});
+        const Groom few = thinned(groom);
+        const std::vector<Vec> x = nodes_in(device, solver.buffers().at("position"), groom),
+                               thin = nodes_in(device, solver.buffers().at("thin_position"), few);
+        for (int s = 0; s < groom.guides; ++s)
+        {
+            const std::vector<Vec> twin = filled_in({thin.begin() + s * few.nodes, thin.begin() + (s + 1) * few.nodes},
+                                                    double(groom.segment_length[size_t(s)]));
+            for (int k = 0; k < groom.nodes; ++k)
+                EXPECT_LT(glm::distance(twin[size_t(k)], x[size_t(s * groom.nodes + k)]), 1e-6) << s << " " << k;
+        }
+    }
+}
+
+// Against all nodes, at several times of a shake: what a picture shows of it is below the tolerance. The eye is as near
+// as it may be.
+TEST(Far, ErrsByLessThanTheTolerance)
+{
+    for (const std::initializer_list<const char*>& sets :
+         {std::initializer_list<const char*>{"solver.far_tolerance=1"},
+          {"solver.far_tolerance=0.5", "strand.length=0.3", "strand.nodes=24", "forces.wind=[2, 0, 1]"},
+          {"solver.far_tolerance=1", "bending.droop=5", "wave.normal_amplitude=0.005", "wave.normal_frequency=10"}})
+    {
+        const Hairstyle style = style_of(sets);
+        const double tolerance = style.params.solver_far_tolerance;
+        Simulation all(test_device(), style), far(test_device(), style);
+        const int nodes = far.solver().groom().nodes;
+        double distance = 0.5;
+        far.play(find_motion("shake"));
+        all.play(find_motion("shake"));
+        // As near as the first step may be far with every block.
+        while (distance < 1e3 && !all_far(far))
+        {
+            distance *= 1.1;
+            far.set_view(from(distance));
+            far.step(far.hand());
+            all.step(all.hand());
+        }
+        ASSERT_TRUE(all_far(far));
+        far.set_view(from(1.1 * distance)); // the head goes to and fro
+        const double pixel = 1.1 * distance / from(0.0).pixels;
+        double sum = 0.0;
+        for (int i = 1; i <= 120; ++i)
+        {
+            far.step(far.hand());
+            all.step(all.hand());
+            EXPECT_TRUE(all_far(far));
+            const double off = apart(nodes_of(far), nodes_of(all), nodes) / pixel;
+            sum += off * off;
+            if (i % 15 == 0)
+            {
+                EXPECT_LT(off, tolerance) << i;
+                expect_sound(far, *sets.begin());
+            }
+        }
+        EXPECT_GT(std::sqrt(sum / 120), 0.02 * tolerance) << "else there was nothing to see";
+    }
+}
+
+// To and fro in the middle of a motion: no step goes further beyond what all nodes make than the tolerance.
+TEST(Far, ComesAndGoesWithoutAJump)
+{
+    const Hairstyle style = style_of({"solver.far_tolerance=1"});
+    Simulation all(test_device(), style), far(test_device(), style);
+    const int nodes = far.solver().groom().nodes;
+    far.set_view(from(1.0));
+    double limit = 0.0; // m: where hair is far
+    for (const FarBlock& block : far_blocks(style.params, far.solver().groom()))
+        limit = std::max(limit, 0.3 * block.length * from(0.0).pixels / 0.8 + block.reach + 0.3);
+    const double pixel = limit / from(0.0).pixels;
+    far.play(find_motion("shake"));
+    all.play(find_motion("shake"));
+    std::vector<Vec> before = nodes_of(far), before_all = nodes_of(all);
+    int changes = 0;
+    for (int i = 0; i < 180; ++i)
+    {
+        const bool was = far.solver().blocks_thin() > 0;
+        far.set_view(from(i / 7 % 2 ? 0.7 : limit));
+        far.step(far.hand());
+        all.step(all.hand());
+        changes += was != (far.solver().blocks_thin() > 0);
+        const std::vector<Vec> now = nodes_of(far), now_all = nodes_of(all);
+        // Of the difference to all nodes, what this one step has added.
+        std::vector<Vec> moved, moved_all;
+        for (size_t k = 0; k < now.size(); ++k)
+        {
+            moved.push_back(now[k] - before[k]);
+            moved_all.push_back(now_all[k] - before_all[k]);
+        }
+        EXPECT_LT(apart(moved, moved_all, nodes), pixel) << i;
+        before = now;
+        before_all = now_all;
+        if (i % 5 == 0)
+            expect_sound(far, "to and fro");
+    }
+    EXPECT_GT(changes, 20);
+}
+
+// Once it is seen from near, hair comes to rest where it would have.
+TEST(Far, ComesToRestWithAllNodes)
+{
+    const Hairstyle style = style_of({"solver.far_tolerance=1", "head.mesh=", "head.spheres="});
+    Simulation all(test_device(), style), far(test_device(), style);
+    const int nodes = far.solver().groom().nodes;
+    far.set_view(kHorizon);
+    for (Simulation* each : {&all, &far})
+    {
+        each->play(find_motion("nod"));
+        for (int i = 0; i < 240; ++i)
+            each->step(each->hand());
+    }
+    EXPECT_TRUE(all_far(far));
+    const double thin = apart(nodes_of(far), nodes_of(all), nodes);
+    far.set_view(from(0.6));
+    for (Simulation* each : {&all, &far})
+        for (int i = 0; i < 600; ++i)
+        {
+            each->solver().keep_awake();
+            each->step(each->hand());
+        }
+    EXPECT_EQ(far.solver().blocks_thin(), 0);
+    const double near = apart(nodes_of(far), nodes_of(all), nodes);
+    EXPECT_LT(near, 0.002 * double(style.params.strand_length));
+    EXPECT_GT(thin, 2.0 * near) << "else there was nothing to come back from";
+}
+
+// Hair that sleeps is woken by who comes near, and by nobody who goes.
+TEST(Far, WhoComesNearWakesIt)
+{
+    Simulation simulation(test_device(), style_of({"solver.far_tolerance=1", "forces.repulsion=0"}));
+    const int blocks = simulation.solver().groom().blocks;
+    const auto step = [&](int steps)
+    {
+        for (int i = 0; i < steps; ++i)
+            simulation.step(simulation.hand());
+    };
+    simulation.set_view(kHorizon);
+    for (int i = 0; i < 600 && !simulation.solver().asleep(); ++i)
+        step(1);
+    ASSERT_TRUE(simulation.solver().asleep());
+    EXPECT_TRUE(all_far(simulation));
+    const std::vector<Vec> asleep = nodes_of(simulation);
+    step(3);
+    EXPECT_EQ(apart(nodes_of(simulation), asleep, simulation.solver().groom().nodes), 0.0);
+    simulation.set_view(from(0.6));
+    step(1);
+    EXPECT_FALSE(simulation.solver().asleep());
+    EXPECT_EQ(simulation.solver().blocks_awake(), blocks);
+    EXPECT_EQ(simulation.solver().blocks_thin(), 0);
+    for (int i = 0; i < 600 && !simulation.solver().asleep(); ++i)
+        step(1);
+    ASSERT_TRUE(simulation.solver().asleep());
+    simulation.set_view(kHorizon);
+    step(1);
+    EXPECT_TRUE(simulation.solver().asleep());
+    EXPECT_EQ(simulation.solver().blocks_thin(), 0);
+}
+
+// Whatever is changed on the way: what cannot be thin is not, and nothing is lost.
+TEST(Far, GivesWayToWhateverComes)
+{
+    Simulation simulation(test_device(), style_of({"solver.far_tolerance=1"}));
+    simulation.set_view(kHorizon);
+    simulation.play(find_motion("shake"));
+    struct Change
+    {
+        const char* set;
+        bool thin;
+    };
+    for (const Change& change : {Change{"solver.kind=pbd", false},
+                                 {"solver.kind=direct", true},
+                                 {"strand.nodes=15", false},
+                                 {"strand.nodes=12", true},
+                                 {"bending.droop=3", true},
+                                 {"bending.droop=0.01", false},
+                                 {"bending.droop=20", true},
+                                 {"strand.spacing=1.2", true},
+                                 {"strand.length=0.1", true},
+                                 {"solver.far_tolerance=0", false},
+                                 {"solver.far_tolerance=2", true},
+                                 {"forces.wind=[4, 0, 0]", true},
+                                 {"forces.repulsion=2", true},
+                                 {"head.contact=spheres", true}})
+    {
+        Hairstyle style = simulation.style();
+        assign(style, change.set);
+        simulation.set_style(style);
+        simulation.set_view(kHorizon);
+        for (int i = 0; i < 10; ++i)
+            simulation.step(simulation.hand());
+        EXPECT_EQ(simulation.solver().blocks_thin() > 0, change.thin) << change.set;
+        EXPECT_TRUE(measure_health(simulation.solver(), simulation.params(), false).finite) << change.set;
+    }
+    simulation.reset();
+    simulation.step(simulation.hand());
+    EXPECT_TRUE(all_far(simulation));
+    const std::vector<int> resets = simulation.solver().resets();
+    EXPECT_EQ(std::ranges::count(resets, 0), std::ssize(resets));
+}
+
+} // namespace
+} // namespace coif
