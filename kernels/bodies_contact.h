@@ -5,10 +5,6 @@
 #include "bodies.h"
 #include "held.h"
 
-// Of a strand's length, how much nearer to the surface it comes where its root lies inside a body, for nobody moves a
-// root: were it asked for more than it can do, it would never come to rest.
-#define GROWS_OUT 0.6667f
-
 // Takes a node that would end inside a capsule to its surface, and rubs it: Coulomb friction takes up to `friction`
 // times the way it was pushed from how far it slid over the body. Node from x, going by *move, while the head went
 // last -> now.

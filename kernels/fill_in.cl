@@ -2,10 +2,54 @@
 // segments' own lengths from root to tip, outside the bodies.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features CONTACT, BODY_GRID (with CONTACT) and DENSITY are build
 // options.
-#include "bodies_contact.h"
+#include "bodies.h"
+#include "direct.h"
 #include "forces.h"
 #include "sleep.h"
 #include "thin.h"
+
+// Of a segment, how deep nodes between may be left, and from where on their neighbours are asked.
+#define ON_SURFACE 0.01f
+#define DEEP 0.25f
+#define ROUNDS 3
+
+#ifdef CONTACT
+// The segment `d` to node i, turned out of the bodies as walk_out() of bodies_contact.h does. *room, where it is not
+// known to be any, becomes the node's.
+static inline Points laid_around(const Bodies* bodies, HeadPose head, int i, const Points* x, Points d, real rest,
+                                 real* room, int* turned)
+{
+    const Points parent = x[i - 1];
+    real inside = (real)(0.0f);
+    for (int turn = 0; turn < ROUNDS; ++turn)
+    {
+        const Nearest nearest = nearest_body(bodies, head, i, plus(parent, d), 1);
+        if (turn == 0)
+        {
+            *room = select(*room, nearest.distance, *room < 0.0f);
+            // Over a hump; or of hair that a body has come over and that is let out slowly, as its neighbours are.
+            if (any_lane(nearest.distance < -DEEP * rest))
+            {
+                const real before = nearest_body(bodies, head, i - 1, parent, 1).distance;
+                const real after = nearest_body(bodies, head, i + 1, x[min(i + 1, NODES - 1)], 1).distance;
+                inside = fmax(-(i > 2 ? fmin(before, after) : after), (real)(0.0f));
+            }
+        }
+        const real gap = nearest.distance + inside;
+        const whole in = gap < -ON_SURFACE * rest;
+        if (!any_lane(in))
+            break;
+        *turned = 1;
+        const Points n = away_in_world(head, nearest);
+        const real along = dot_lanes(n, d), height = clamp(gap - along, -rest, rest);
+        Points flat = minus(d, times(along, n));
+        flat = select_points(flat, any_normal(n), dot_lanes(flat, flat) < 1e-8f * rest * rest);
+        const real size = sqrt((rest - height) * (rest + height)) * INVERSE_SQRT(dot_lanes(flat, flat));
+        d = select_points(d, minus(times(size, flat), times(height, n)), in);
+    }
+    return d;
+}
+#endif
 
 kernel void fill_in(global float* position, global const float* thin_position, global const int* thinned,
                     global const float* still, global const float* segment_length, global int* density,
@@ -28,7 +72,6 @@ kernel void fill_in(global float* position, global const float* thin_position, g
         lay_between(thin_position + strand_value(strand, 0, 0, THIN_NODES), x);
         for (int i = 0; i < NODES; ++i)
             x[i] = plus(x[i], carried);
-        whole walked = (whole)(0);
 #ifdef CONTACT
         const HeadPose end = head_pose(path, STEP_PARTS);
         Bodies near;
@@ -36,32 +79,24 @@ kernel void fill_in(global float* position, global const float* thin_position, g
 #ifdef BODY_GRID
         near.grid = body_distance;
         near.info = info;
-        find_planes(&near, end, x, x, x[1], 1);
 #endif
-        if (any_near(&near))
+        real room = (real)(-1.0f); // that the node has about it, at least
+        int turned = 0;
+#endif
+        for (int i = 2; i < NODES; ++i)
         {
-            // What was moved may be inside, for it is let out slowly; what is between, no deeper than its neighbours.
-            real inside[NODES];
-            for (int i = 1; i < NODES; i += 2)
-            {
-                real gap = nearest_capsule(&near, end, x[i]).distance;
-#ifdef BODY_GRID
-                gap = fmin(gap, near.distance[i]);
+            Points d = minus(x[i], x[i - 1]);
+            d = times(rest * INVERSE_SQRT(fmax(dot_lanes(d, d), 1e-12f * rest * rest)), d);
+#ifdef CONTACT
+            // What was moved is outside, unless it has to follow what had to turn. Of the nodes between those are looked
+            // at that no other before keeps clear.
+            room -= rest;
+            const int look = i % 2 == 0 || turned;
+            turned = 0;
+            if (look && any_near(&near) && any_lane(room < 0.0f))
+                d = laid_around(&near, end, i, x, d, rest, &room, &turned);
 #endif
-                inside[i] = fmax(-gap, (real)(0.0f));
-            }
-            inside[2] = fmax(inside[1] - GROWS_OUT * rest, inside[3]);
-            for (int i = 4; i < NODES; i += 2)
-                inside[i] = fmax(inside[i - 1], inside[i + 1]);
-            walk_out(&near, end, x, rest, 2, inside, 1);
-            walked = (whole)(-1);
-        }
-#endif
-        for (int i = 2; i < NODES && !any_lane(walked); ++i)
-        {
-            const Points d = minus(x[i], x[i - 1]);
-            const real scale = rest * INVERSE_SQRT(fmax(dot_lanes(d, d), 1e-12f * rest * rest));
-            x[i] = plus(x[i - 1], times(scale, d));
+            x[i] = plus(x[i - 1], d);
         }
         for (int i = 0; i < NODES; ++i)
             store_lanes(minus(x[i], carried), position + strand_value(strand, i, 0, NODES));

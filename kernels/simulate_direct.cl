@@ -24,6 +24,9 @@
 
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
+// Of a strand's length, how much nearer to the surface it comes where its root lies inside a body, for nobody moves a
+// root: were it asked for more than it can do, it would never come to rest.
+#define GROWS_OUT 0.6667f
 
 // The pace that the tension in this block asks for: h w_max <= courant with w_max^2 = 4 times the largest multiplier
 // (transverse waves of a chain). Faster at once, slower only when well below: order two lives from equal substeps.

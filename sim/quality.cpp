@@ -129,7 +129,8 @@ double measure_thin_error(const Device& device, const HairParams& params, const 
     constexpr int kBlocks = 16, kStill = 30, kSteps = 150;
     constexpr double kStep = 1.0 / 60.0;
     const Motion motion = find_motion("shake");
-    HairParams p = alone(params);
+    HairParams p = params;
+    p.look_self_shadow = 0.0f;
     p.solver_far_tolerance = find_param("solver.far_tolerance")->max;
     const Groom groom = some_blocks(hair.groom(), kBlocks);
     Solver all(device, p, groom, pose_at(motion, 0.0)), thin(device, p, groom, pose_at(motion, 0.0));
