@@ -201,20 +201,30 @@ TEST(Far, ErrsByLessThanTheTolerance)
         ASSERT_TRUE(all_far(far));
         far.set_view(from(1.1 * distance)); // the head goes to and fro
         const double pixel = 1.1 * distance / from(0.0).pixels;
+        const int guides = far.solver().groom().guides;
+        std::vector<double> in_block(size_t(far.solver().groom().blocks), 0.0); // mean squares, pixels
         double sum = 0.0;
         for (int i = 1; i <= 120; ++i)
         {
             far.step(far.hand());
             all.step(all.hand());
             EXPECT_TRUE(all_far(far));
-            const double off = apart(nodes_of(far), nodes_of(all), nodes) / pixel;
+            const std::vector<Vec> thin = nodes_of(far), full = nodes_of(all);
+            const double off = apart(thin, full, nodes) / pixel;
             sum += off * off;
+            for (size_t k = 0; k < thin.size(); ++k)
+            {
+                const int block = int(k) / nodes / LANES, strands = std::min(LANES, guides - block * LANES);
+                in_block[size_t(block)] +=
+                    glm::dot(thin[k] - full[k], thin[k] - full[k]) / (pixel * pixel * 120.0 * strands * (nodes - 2));
+            }
             if (i % 15 == 0)
             {
                 EXPECT_LT(off, tolerance) << i;
                 expect_sound(far, *sets.begin());
             }
         }
+        EXPECT_LT(std::sqrt(*std::max_element(in_block.begin(), in_block.end())), tolerance);
         EXPECT_GT(std::sqrt(sum / 120), 0.02 * tolerance) << "else there was nothing to see";
     }
 }
@@ -297,6 +307,8 @@ TEST(Far, WhoComesNearWakesIt)
             simulation.step(simulation.hand());
     };
     simulation.set_view(kHorizon);
+    step(1);
+    EXPECT_TRUE(all_far(simulation));
     for (int i = 0; i < 600 && !simulation.solver().asleep(); ++i)
         step(1);
     ASSERT_TRUE(simulation.solver().asleep());
