@@ -144,6 +144,112 @@ TEST(Far, StepsAsAGroomOfSoManyNodes)
     }
 }
 
+// Who becomes far takes the ways, speeds and tensions of every other node along; who comes near gets back what is
+// linear along the strand as it was; nobody else is touched.
+TEST(Far, CarriesMotionOver)
+{
+    for (const int width : {1, 8, 16})
+    {
+        const Device device = with_width(width);
+        Random random(11);
+        const int nodes = 12, few = thin_nodes(nodes), guides = 4 * LANES;
+        const Groom groom = random_groom(random, guides, nodes, 1);
+        const std::vector<int> change = {THIN_NOW, THIN_BEFORE, 0, THIN_NOW | THIN_BEFORE};
+        // Linear along the strand: value and slope a node.
+        std::vector<Vec> x, v, few_x, few_v;
+        std::vector<float> pull(size_t(guides * nodes)), few_pull(size_t(guides * few)), tension(size_t(guides), 8.0f);
+        for (int s = 0; s < guides; ++s)
+        {
+            const Vec root = random.vector(0.1), begin = random.vector(1.0), slope = random.vector(0.2);
+            for (int k = 0; k < nodes; ++k)
+            {
+                x.push_back(root + 0.01 * (k - 1) * Vec(1.0, 0.1 * k, 0.0));
+                v.push_back(begin + double(k) * slope);
+                pull[size_t((s / LANES * nodes + k) * LANES + s % LANES)] = float(100 + 7 * k);
+            }
+            for (int k = 0; k < few; ++k)
+            {
+                few_x.push_back(root);
+                few_v.push_back(begin + double(2 * k - 1) * slope);
+                // Of the two segments that it is in the place of, 2 k - 2 and 2 k - 1.
+                few_pull[size_t((s / LANES * few + k) * LANES + s % LANES)] = float(100 + 7 * (2 * k - 1.5)) / 4.0f;
+            }
+        }
+        HairParams params;
+        StepInfo info = {};
+        info.guides = guides;
+        Buffers buffers = {{"position", filled(device, to_blocks(x, guides, nodes))},
+                           {"velocity", filled(device, to_blocks(v, guides, nodes))},
+                           {"multiplier", filled(device, pull)},
+                           {"thin_position", filled(device, to_blocks(few_x, guides, few))},
+                           {"thin_velocity", filled(device, to_blocks(few_v, guides, few))},
+                           {"thin_multiplier", filled(device, few_pull)},
+                           {"tension", filled(device, tension)},
+                           {"still", filled(device, tension)},
+                           {"thinned", filled(device, change)},
+                           {"segment_length", filled(device, groom.segment_length)},
+                           {"params", filled(device, params)},
+                           {"info", filled(device, info)}};
+        // What is to be made of it must not be there already.
+        const auto spoil = [&](const char* name, int block)
+        {
+            std::vector<float> values = read<float>(device, buffers[name], buffers[name].getInfo<CL_MEM_SIZE>() / 4);
+            const size_t each = values.size() / 4;
+            std::fill_n(values.begin() + long(size_t(block) * each), each, 1e9f);
+            write(device, buffers[name], values);
+        };
+        for (const char* name : {"thin_position", "thin_velocity", "thin_multiplier"})
+            spoil(name, 0);
+        for (const char* name : {"velocity", "multiplier"})
+            spoil(name, 1);
+        Kernel kernel = load_kernel(device, "change_nodes", pass_options(device, nodes, 8));
+        run(device, kernel, buffers, cl::NDRange(size_t(guides / width)), cl::NDRange(1));
+
+        const auto vectors = [&](const char* name, int count)
+        { return from_blocks(read<float>(device, buffers[name], size_t(guides * count * 3)), guides, count); };
+        const std::vector<Vec> v_now = vectors("velocity", nodes), few_x_now = vectors("thin_position", few),
+                               few_v_now = vectors("thin_velocity", few);
+        const std::vector<float> pull_now = read<float>(device, buffers["multiplier"], pull.size()),
+                                 few_pull_now = read<float>(device, buffers["thin_multiplier"], few_pull.size());
+        EXPECT_EQ(vectors("position", nodes), from_blocks(to_blocks(x, guides, nodes), guides, nodes));
+        for (int s = 0; s < guides; ++s)
+        {
+            const bool thinned_now = change[size_t(s / LANES)] == THIN_NOW;
+            for (int k = 0; k < nodes; ++k)
+            {
+                const size_t at = size_t((s / LANES * nodes + k) * LANES + s % LANES);
+                EXPECT_LT(glm::distance(v_now[size_t(s * nodes + k)], v[size_t(s * nodes + k)]), 1e-5) << s << " " << k;
+                if (k > 1)
+                    EXPECT_NEAR(pull_now[at], pull[at], 1e-3) << s << " " << k;
+            }
+            for (int k = 0; k < few; ++k)
+            {
+                const size_t i = size_t(s * few + k), at = size_t((s / LANES * few + k) * LANES + s % LANES);
+                EXPECT_LT(glm::distance(few_v_now[i], few_v[i]), 1e-5) << s << " " << k;
+                if (k > 1)
+                    EXPECT_NEAR(few_pull_now[at], few_pull[at], 1e-3) << s << " " << k;
+                if (!thinned_now)
+                    EXPECT_LT(glm::distance(few_x_now[i], few_x[i]), 1e-6);
+                else if (k > 1)
+                {
+                    const Vec way = few_x_now[i] - few_x_now[i - 1];
+                    const Vec was = x[size_t(s * nodes + 2 * k - 1)] - x[size_t(s * nodes + 2 * k - 3)];
+                    EXPECT_NEAR(glm::length(way), 2.0 * double(groom.segment_length[size_t(s)]), 1e-6);
+                    EXPECT_LT(glm::distance(glm::normalize(way), glm::normalize(was)), 1e-4);
+                }
+            }
+        }
+        const std::vector<float> tension_now = read<float>(device, buffers["tension"], tension.size()),
+                                 still = read<float>(device, buffers["still"], tension.size());
+        const float tense[] = {2.0f, 32.0f, 8.0f, 8.0f}, calm[] = {0.0f, 0.0f, 8.0f, 8.0f};
+        for (int s = 0; s < guides; ++s)
+        {
+            EXPECT_EQ(tension_now[size_t(s)], tense[s / LANES]);
+            EXPECT_EQ(still[size_t(s)], calm[s / LANES]) << "who changes is awake";
+        }
+    }
+}
+
 // All nodes are on the cubics through those that were moved, as the plain twin has it.
 TEST(Far, FillsInAsItsTwin)
 {
