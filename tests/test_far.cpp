@@ -220,16 +220,22 @@ TEST(Far, CarriesMotionOver)
                 const size_t at = size_t((s / LANES * nodes + k) * LANES + s % LANES);
                 EXPECT_LT(glm::distance(v_now[size_t(s * nodes + k)], v[size_t(s * nodes + k)]), 1e-5) << s << " " << k;
                 if (k > 1)
+                {
                     EXPECT_NEAR(pull_now[at], pull[at], 1e-3) << s << " " << k;
+                }
             }
             for (int k = 0; k < few; ++k)
             {
                 const size_t i = size_t(s * few + k), at = size_t((s / LANES * few + k) * LANES + s % LANES);
                 EXPECT_LT(glm::distance(few_v_now[i], few_v[i]), 1e-5) << s << " " << k;
                 if (k > 1)
+                {
                     EXPECT_NEAR(few_pull_now[at], few_pull[at], 1e-3) << s << " " << k;
+                }
                 if (!thinned_now)
+                {
                     EXPECT_LT(glm::distance(few_x_now[i], few_x[i]), 1e-6);
+                }
                 else if (k > 1)
                 {
                     const Vec way = few_x_now[i] - few_x_now[i - 1];
