@@ -88,8 +88,8 @@ kernel void fill_in(global float* position, global const float* thin_position, g
             Points d = minus(x[i], x[i - 1]);
             d = times(rest * INVERSE_SQRT(fmax(dot_lanes(d, d), 1e-12f * rest * rest)), d);
 #ifdef CONTACT
-            // What was moved is outside, unless it has to follow what had to turn. Of the nodes between those are looked
-            // at that no other before keeps clear.
+            // What was moved is outside, unless it has to follow what had to turn. Of the nodes between those are
+            // looked at that no other before keeps clear.
             room -= rest;
             const int look = i % 2 == 0 || turned;
             turned = 0;

@@ -13,8 +13,8 @@
 //
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
-// (with CONTACT), DENSITY and HELD are build options. Where some blocks are far, two kernels share them: with THIN=0 this
-// is the one for the others, with THIN=1 that of thin chains, whose nodes, lengths and rest its arguments are then.
+// (with CONTACT), DENSITY and HELD are build options. Where some blocks are far, two kernels share them: with THIN=0
+// this is the one for the others, with THIN=1 that of thin chains, whose nodes, lengths and rest its arguments are then.
 #include "bodies_contact.h"
 #include "direct.h"
 #include "faults.h"
