@@ -144,6 +144,48 @@ TEST(Far, StepsAsAGroomOfSoManyNodes)
     }
 }
 
+// Each block for itself: the near ones move as if all were near, the far ones as if all were far.
+TEST(Far, EachBlockGoesItsOwnWay)
+{
+    for (const int width : {1, 16})
+    {
+        const Device device = with_width(width);
+        Random random(5);
+        const int nodes = 12;
+        Groom groom = random_groom(random, 6 * LANES, nodes, 1);
+        for (int s = 0; s < groom.guides; ++s) // every other block is short
+            groom.segment_length[size_t(s)] *= s / LANES % 2 ? 0.2f : 1.0f;
+        HairParams params;
+        params.forces_repulsion = 0.0f;
+        const double share = 0.1;
+        const std::vector<FarBlock> blocks = far_blocks(params, groom);
+        const View view = from(5.0);
+        params.solver_far_tolerance =
+            float(0.5 * (far_error(blocks[0], share, view, {}) + far_error(blocks[1], share, view, {})));
+        Solver near(device, params, groom, {}), far(device, params, groom, {}), mixed(device, params, groom, {});
+        far.set_view(kHorizon);
+        mixed.set_view(view);
+        for (Solver* each : {&near, &far, &mixed})
+        {
+            each->let_blocks_sleep(true);
+            each->set_thin_error(share);
+            each->set_body({lumpy_body(), 1.0f, {}});
+            for (int i = 1; i < 20; ++i)
+                each->step({{{{0.001 * i * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {}}, i / 60.0, 1.0f / 60.0f}});
+        }
+        EXPECT_EQ(near.blocks_thin(), 0);
+        EXPECT_EQ(mixed.blocks_thin(), groom.blocks / 2);
+        EXPECT_EQ(far.blocks_thin(), groom.blocks);
+        const size_t each = size_t(nodes) * 3 * LANES, all = size_t(groom.blocks) * each;
+        const auto positions = [&](const Solver& solver)
+        { return read<float>(device, solver.buffers().at("position"), all); };
+        const std::vector<float> as_near = positions(near), as_far = positions(far), both = positions(mixed);
+        EXPECT_NE(as_near, as_far);
+        for (size_t i = 0; i < all; ++i)
+            EXPECT_EQ(both[i], i / each % 2 ? as_far[i] : as_near[i]) << i;
+    }
+}
+
 // Who becomes far takes the ways, speeds and tensions of every other node along; who comes near gets back what is
 // linear along the strand as it was; nobody else is touched.
 TEST(Far, CarriesMotionOver)
