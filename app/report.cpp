@@ -181,9 +181,11 @@ int report(const Options& options, const ReportOptions& wanted)
             text += fmt::format("  {} of {} blocks of {} guides awake at the end\n", simulation.solver().blocks_awake(),
                                 groom.blocks, LANES);
         if (simulation.params().solver_far_tolerance > 0.0f)
-            text += fmt::format(
-                "  {} of {} blocks far: they step with half the nodes, as a picture of {} lines shows them\n",
-                simulation.solver().blocks_thin(), groom.blocks, pictured.height);
+            text += fmt::format("  {} of {} blocks are far in a picture of {} lines and step with half the nodes{}\n",
+                                simulation.solver().blocks_thin(), groom.blocks, pictured.height,
+                                simulation.thin_error() ? fmt::format(": {:.2g} % of the length off, predicted",
+                                                                      100.0 * *simulation.thin_error())
+                                                        : "");
         if (!quality.said.empty())
             text += quality_text(quality) + "\n";
         if (!quality.rungs.empty())
