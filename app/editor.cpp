@@ -349,6 +349,11 @@ void Editor::measure_quality()
 void Editor::advance(double seconds)
 {
     const bool played = simulation_->playing(), slept = simulation_->solver().asleep();
+    int pixels_wide = 0, pixels_high = 0;
+    SDL_GL_GetDrawableSize(window_.sdl(), &pixels_wide, &pixels_high);
+    simulation_->set_view(view_of(camera_, pixels_high));
+    if (beside_.simulation)
+        beside_.simulation->set_view(view_of(camera_, pixels_high));
     bool stepped = step_once_;
     if (step_once_)
         simulation_->step(hand_);

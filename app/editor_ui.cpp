@@ -287,6 +287,8 @@ void Editor::draw_status()
     }
     if (simulation_->solver().asleep())
         ImGui::Text("asleep: at rest, nothing runs");
+    else if (const int thin = solver.blocks_thin(); thin > 0)
+        ImGui::Text("%d of %d blocks are far: half the nodes", thin, groom.blocks);
     if (simulation_->dropped() > 0)
         ImGui::Text("%ld steps dropped", simulation_->dropped());
     if (show_times_)

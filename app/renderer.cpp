@@ -42,6 +42,12 @@ glm::dvec3 Camera::position() const
            distance * glm::dvec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
 }
 
+View view_of(const Camera& camera, int height)
+{
+    const glm::dvec3 eye = camera.position();
+    return {eye, (camera.target - eye) / camera.distance, 0.5 * height / std::tan(0.5 * camera.fov)};
+}
+
 Camera camera_of(const HairParams& authored)
 {
     const HairParams p = device_params(authored); // radians

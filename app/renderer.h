@@ -32,6 +32,8 @@ struct Camera
 
     glm::dvec3 position() const;
 };
+// What strands far away are told by, in a picture of so many lines.
+View view_of(const Camera& camera, int height);
 
 // The camera that a style keeps. Parameters as authored.
 Camera camera_of(const HairParams& params);

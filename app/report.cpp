@@ -4,6 +4,7 @@
 #include "app/json.h"
 #include "app/progress.h"
 #include "app/report_look.h"
+#include "app/shot.h"
 #include "app/traced/shoot.h"
 #include "sim/error.h"
 #include "sim/health.h"
@@ -60,6 +61,7 @@ int report(const Options& options, const ReportOptions& wanted)
     simulation.settle(wanted.settle);
     simulation.solver().take_times();
     simulation.play(motion);
+    const ShotOptions pictured; // as a shot is that says nothing of size and camera
 
     const long frames = std::max(1L, std::lround(options.seconds * wanted.fps));
     Health worst;
@@ -71,6 +73,7 @@ int report(const Options& options, const ReportOptions& wanted)
     std::string csv = "frame,time,stretch_max,stretch_mean,penetration_mm,drawn_penetration_mm,ms\n";
     for (long f = 0; f < frames; ++f)
     {
+        simulation.set_view(view_of(shot_camera(simulation, pictured, 0.0), pictured.height));
         simulation.advance(1.0 / wanted.fps, simulation.hand(), 1 << 20);
         simulation.solver().draw();
         const PassTimes times = simulation.solver().take_times();
@@ -142,13 +145,15 @@ int report(const Options& options, const ReportOptions& wanted)
             "{}, \"drawn_penetration_max_mm\": {}, \"resets\": {}, \"bad_strands\": {}, \"dropped_steps\": {}, "
             "\"ms_frame_median\": {}, "
             "\"ms_pass\": {{{}}}, \"frames_pass\": {{{}}}, \"asleep\": {}, \"blocks\": {}, \"blocks_awake\": {}, "
+            "\"blocks_thin\": {}, "
             "\"quality\": {}, \"substeps_error_predicted\": {}, \"substeps_error_measured\": {}, \"look\": {}}}\n",
             json_text(style.name()), json_text(motion.name), json_text(device.name), groom.guides, groom.drawn.size(),
             groom.nodes, frames, worst.finite, json_number(worst.stretch_max), json_number(stretch_mean),
             json_number(1e3 * worst.penetration_max), json_number(1e3 * worst.drawn_penetration_max), reset_count,
             json(bad), simulation.dropped(), json_number(median(frame_ms)), fmt::join(passes, ", "),
             fmt::join(ran, ", "), simulation.solver().asleep(), groom.blocks, simulation.solver().blocks_awake(),
-            json_text(quality.said), json_number(predicted), json_number(time_error), json_of(look));
+            simulation.solver().blocks_thin(), json_text(quality.said), json_number(predicted), json_number(time_error),
+            json_of(look));
     }
     else
     {
@@ -175,6 +180,12 @@ int report(const Options& options, const ReportOptions& wanted)
         else
             text += fmt::format("  {} of {} blocks of {} guides awake at the end\n", simulation.solver().blocks_awake(),
                                 groom.blocks, LANES);
+        if (simulation.params().solver_far_tolerance > 0.0f)
+            text += fmt::format("  {} of {} blocks are far in a picture of {} lines and step with half the nodes{}\n",
+                                simulation.solver().blocks_thin(), groom.blocks, pictured.height,
+                                simulation.thin_error() ? fmt::format(": {:.2g} % of the length off, predicted",
+                                                                      100.0 * *simulation.thin_error())
+                                                        : "");
         if (!quality.said.empty())
             text += quality_text(quality) + "\n";
         if (!quality.rungs.empty())

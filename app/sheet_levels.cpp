@@ -88,7 +88,7 @@ int level_sheet(const Options& options, const ShotOptions& cell, const SheetOpti
         progress.say(style.name() + ": falls to rest");
         Simulation simulation(device, style);
         simulation.play(motion);
-        play_to(simulation, options.seconds);
+        play_to(simulation, cell, options.seconds);
         Renderer renderer(data_folder() / "shaders");
         put_levels(page, at, i * kPictures, simulation, renderer, cell, *wanted.levels, progress);
     }

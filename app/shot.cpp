@@ -84,14 +84,16 @@ void Studio::play_to(double seconds)
 {
     const long target = std::lround(seconds / simulation_.step_seconds());
     note_moment(target);
-    coif::play_to(simulation_, seconds, [&] { note_moment(target); });
+    coif::play_to(simulation_, shot_, seconds, [&] { note_moment(target); });
 }
 
-void play_to(Simulation& simulation, double seconds, const std::function<void()>& after_step)
+void play_to(Simulation& simulation, const ShotOptions& shot, double seconds, const std::function<void()>& after_step)
 {
     const long steps = std::lround(seconds / simulation.step_seconds());
     while (simulation.steps() < steps)
     {
+        // Views from all around are from as far: what each shows must not hang on which others are taken.
+        simulation.set_view(view_of(shot_camera(simulation, shot, 0.0), shot.height));
         simulation.step(simulation.hand());
         if (after_step)
             after_step();

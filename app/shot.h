@@ -25,8 +25,10 @@ void parse_size(const std::string& text, ShotOptions& shot);
 // Throws Error for options that no picture can be taken with, before anything is opened for it.
 void check_shot(const Options& options, const ShotOptions& shot);
 
-// Simulates, without drawing, until `seconds` after the motion began. Time never goes back.
-void play_to(Simulation& simulation, double seconds, const std::function<void()>& after_step = {});
+// Simulates, without drawing, until `seconds` after the motion began, for pictures from where that camera stands.
+// Time never goes back.
+void play_to(Simulation& simulation, const ShotOptions& shot, double seconds,
+             const std::function<void()>& after_step = {});
 
 // The camera that is asked for, `turn` (rad) further round its target; with the head where teleports have carried it.
 Camera shot_camera(const Simulation& simulation, const ShotOptions& shot, double turn);

@@ -13,12 +13,14 @@
 //
 // What is decided is decided for each block of 16 strands alike, whatever WIDTH is, or for each lane alone.
 // Work-item: WIDTH strands. NODES, RESOLUTION and the features BENDING, CURLED, WIND, REPULSION, CONTACT, BODY_GRID
-// (with CONTACT), DENSITY and HELD are build options.
+// (with CONTACT), DENSITY and HELD are build options. Where some blocks are far, two kernels share them: with THIN=0
+// this is the one for the others, with THIN=1 that of thin chains, whose nodes, lengths and rest its arguments are then.
 #include "bodies_contact.h"
 #include "direct.h"
 #include "faults.h"
 #include "forces.h"
 #include "sleep.h"
+#include "thin.h"
 
 #define MOST_NEWTON 3
 #define LENGTH_TOLERANCE 5e-4f // of | |d|^2 - l^2 | / l^2
@@ -48,14 +50,6 @@ static inline int pace_for(global const float* tension, global const float* segm
     while (down < PACES - 1 && (float)substeps_of(down) < fmax(1.4f * need, (float)params->solver_substeps))
         ++down;
     return max(up, min(before, down));
-}
-
-static inline int sleeps(global const float* still, int block)
-{
-    float shortest = still[block * LANES];
-    for (int lane = 1; lane < LANES; ++lane)
-        shortest = fmin(shortest, still[block * LANES + lane]);
-    return shortest >= SLEEP_AFTER;
 }
 
 #ifdef REPULSION
@@ -90,6 +84,9 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
 #ifdef HELD
                             global const int* held_nodes,
 #endif
+#ifdef THIN
+                            global const int* thinned,
+#endif
                             global const float* root_normal, global const float* bend_factor,
                             global const float* gradient, global int* density, global int* touched,
                             global const float* still, global float* still_next, global float* pushed,
@@ -101,6 +98,10 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
     if (strand >= (info->guides + LANES - 1) / LANES * LANES)
         return;
     const int block = strand / LANES;
+#ifdef THIN
+    if ((thinned[block] & THIN_NOW) != THIN)
+        return;
+#endif
     const int first = strand_value(strand, 0, 0, NODES), root = strand_value(strand, 0, 0, 1);
     const int first_scalar = block * NODES * LANES + strand % LANES;
     const real rest = fmax(LANES_LOAD(segment_length + strand) * params->strand_spacing, (real)(1e-9f));

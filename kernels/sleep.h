@@ -9,4 +9,15 @@
 #define SLEEP_SPEED 0.005f // lengths a second
 #define WOKEN_BY 0.05f     // m/s^2
 
+#ifndef __cplusplus
+#include "shared.h"
+static inline int sleeps(global const float* still, int block)
+{
+    float shortest = still[block * LANES];
+    for (int lane = 1; lane < LANES; ++lane)
+        shortest = fmin(shortest, still[block * LANES + lane]);
+    return shortest >= SLEEP_AFTER;
+}
+#endif
+
 #endif

@@ -124,6 +124,59 @@ double measure_time_error(const Device& device, const HairParams& params, const 
     return apart(move(device, p, few, motion, seconds, 1), move(device, p, few, motion, seconds, 8), few);
 }
 
+double measure_thin_error(const Device& device, const HairParams& params, const Solver& hair)
+{
+    constexpr int kBlocks = 16, kStill = 30, kSteps = 180;
+    constexpr double kStep = 1.0 / 60.0;
+    constexpr double kElsewhere = 1.25; // other seconds of a shake err by up to 1.2 times as much
+    const Motion motion = find_motion("shake");
+    HairParams p = params;
+    p.look_self_shadow = 0.0f;
+    p.solver_far_tolerance = find_param("solver.far_tolerance")->max;
+    const Groom groom = some_blocks(hair.groom(), kBlocks);
+    Solver all(device, p, groom, pose_at(motion, 0.0)), thin(device, p, groom, pose_at(motion, 0.0));
+    for (Solver* each : {&all, &thin})
+    {
+        each->set_body(hair.body());
+        each->set_colliders(hair.colliders());
+    }
+    thin.let_blocks_sleep(true);
+    thin.set_view(View{{0.0, 0.0, 1e6}, {0.0, 0.0, -1.0}, 1.0});
+    thin.set_thin_error(0.0);
+    const std::vector<FarBlock> blocks = far_blocks(params, groom);
+    std::vector<double> in_block(blocks.size(), 0.0);
+    double worst2 = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+    {
+        const double begin = std::max(0, i - kStill) * kStep, more = i < kStill ? 0.0 : kStep;
+        const auto way = [&](double share) { return pose_at(motion, begin + share * more); };
+        for (Solver* each : {&all, &thin})
+        {
+            each->keep_awake();
+            each->step({{way(1.0), begin + more, float(kStep), way}});
+        }
+        const Mapped a = all.guide_positions(), b = thin.guide_positions();
+        double sum = 0.0;
+        for (int s = 0; s < groom.guides; ++s)
+        {
+            const size_t block = size_t(s / LANES);
+            const int strands = std::min(LANES, groom.guides - s / LANES * LANES);
+            double off2 = 0.0;
+            for (int k = 2; k < groom.nodes; ++k)
+            {
+                const glm::dvec3 off =
+                    vector_at(a.as<float>(), s, k, groom.nodes) - vector_at(b.as<float>(), s, k, groom.nodes);
+                off2 += glm::dot(off, off);
+            }
+            off2 /= (groom.nodes - 2) * std::max(1e-18, blocks[block].length * blocks[block].length);
+            sum += off2 / groom.guides;
+            in_block[block] += off2 / (strands * double(kSteps));
+        }
+        worst2 = std::max(worst2, sum);
+    }
+    return kElsewhere * std::sqrt(std::max(worst2, *std::max_element(in_block.begin(), in_block.end())));
+}
+
 // ---- choosing ----------------------------------------------------------------------------------------------------
 
 double Quality::predicted() const { return std::hypot(time_error, node_error); }

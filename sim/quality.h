@@ -51,6 +51,11 @@ Hairstyle meet_tolerance(const Device& device, const Hairstyle& style, Assets& a
 double measure_time_error(const Device& device, const HairParams& params, const Groom& groom, const Motion& motion,
                           double seconds);
 
+// What half the nodes would change of this hair: of up to sixteen of its blocks that rest for half a second and shake
+// for two and a half, against themselves with all nodes. Rms over nodes at the worst time, or over time in the worst
+// block, and a quarter; as a share of the length. `params` as authored. Throws Error as Solver does.
+double measure_thin_error(const Device& device, const HairParams& params, const Solver& hair);
+
 // The error of drawn strands between so many guides on this scalp, free of contact, as a fraction of their length:
 // predicted, by accuracy's second order in the guides' spacing (`coif measure --only A12`).
 double error_of_guides(const HairParams& params, const Scalp& scalp, int guides);

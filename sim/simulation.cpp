@@ -303,6 +303,11 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
     Quality quality = quality_;
     Hairstyle style = authored;
     if (reload || !same_hair(authored, authored_))
+    {
+        thin_error_.reset(); // measured anew when it matters
+        solver_->set_thin_error({});
+    }
+    if (reload || !same_hair(authored, authored_))
         style = meet_tolerance(device_, authored, meshes ? fresh : assets_, quality);
     else
         for (const char* kept : kTolerant)
@@ -351,6 +356,14 @@ void Simulation::set_style(const Hairstyle& authored, bool reload)
         solver_->reset(solver_->head());
         drape();
     }
+}
+
+void Simulation::set_view(const View& view)
+{
+    solver_->set_view(view);
+    if (!thin_error_ && solver_->may_be_far())
+        thin_error_ = measure_thin_error(device_, style_.params, *solver_);
+    solver_->set_thin_error(thin_error_);
 }
 
 void Simulation::reload_lights()

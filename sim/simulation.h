@@ -78,6 +78,11 @@ class Simulation
     // Error is thrown. `reload` loads the meshes again though their paths are the same.
     void set_style(const Hairstyle& style, bool reload = false);
 
+    // From where it is seen, for solver.far_tolerance: measures, when that first matters, what half the nodes would
+    // change.
+    void set_view(const View& view);
+    std::optional<double> thin_error() const { return thin_error_; } // a share of the length; if it was measured
+
     void reload_lights(); // the file of look.lights, if there is one; throws Error, and then nothing has changed
 
     void play(std::optional<Motion> motion); // from its beginning; none: stop where the head is
@@ -113,6 +118,7 @@ class Simulation
     Falling falling_;
     Hairstyle authored_, style_; // as written, and as simulated
     Quality quality_;
+    std::optional<double> thin_error_;
     Assets assets_;
     std::unique_ptr<Solver> solver_;
     std::optional<Motion> motion_;

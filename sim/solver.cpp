@@ -182,6 +182,8 @@ void Solver::set_rest_shape()
 {
     rest_ = make_rest_shape(params_, groom_);
     rest_clear_.reset();
+    far_blocks_.clear();
+    thin_rest_.reset();
     write(device_, buffer("rest_position"), rest_.position);
     write(device_, buffer("rest_bend"), rest_.bend);
     write(device_, buffer("root_normal"), rest_.normal);
@@ -218,6 +220,7 @@ void Solver::reset(const Pose& head)
     head_ = head;
     head_velocity_ = glm::dvec3(0.0);
     changed_ = true;
+    thin_now_.clear();
     std::vector<float> position = rest_.position;
     const std::vector<float> velocity(position.size(), 0.0f);
     for (int s = 0; s < groom_.blocks * LANES; ++s)
@@ -273,6 +276,7 @@ int Solver::blocks_awake() const
         awake += *std::min_element(block, block + LANES) < SLEEP_AFTER;
     return awake;
 }
+int Solver::blocks_thin() const { return int(std::ranges::count(thin_now_, 1)); }
 bool Solver::has_shadow() const { return params_.look_self_shadow > 0.0f && lit_by_kajiya_kay(params_); }
 
 } // namespace coif

@@ -1,5 +1,6 @@
 #pragma once
 #include "sim/device.h"
+#include "sim/far.h"
 #include "sim/rest_shape.h"
 #include "sim/step_info.h"
 
@@ -68,7 +69,13 @@ class Solver
     bool asleep() const { return asleep_; }
     // So do blocks of 16 strands alone, where they may: those of the direct solver that have come to rest.
     void let_blocks_sleep(bool may) { blocks_may_sleep_ = may; }
-    int blocks_awake() const;                   // waits for the device
+    int blocks_awake() const; // waits for the device
+    // From where the hair is seen, and what half the nodes err by, rms as a share of the length: for
+    // solver.far_tolerance. Without either nothing is far, nor while blocks may not sleep.
+    void set_view(const std::optional<View>& view) { view_ = view; }
+    void set_thin_error(std::optional<double> share) { thin_error_ = share; }
+    bool may_be_far() const;                    // if half the nodes did hardly any harm
+    int blocks_thin() const;                    // that step with half their nodes
     long drawings() const { return drawings_; } // that draw() has made anew
     void keep_awake() { changed_ = true; }      // for the next step and draw
     double fastest(); // node against the head's origin in the steps since the last call, m/s; waits for the device
@@ -90,6 +97,7 @@ class Solver
     const std::vector<float>& rest_positions() const { return rest_.position; } // RestShape::position
     std::vector<Capsule> placed_colliders() const; // relative to the head's origin, at the last step
     const PlacedGrid& body() const { return body_; }
+    const std::vector<Collider>& colliders() const { return colliders_; }
     glm::dvec3 jumped() const { return jumped_; } // sum of the head's teleports, m
     Moment moment() const;                        // as it is; waits for the device
     // For the next draw(). Before the next step the moment that was must be shown again.
@@ -102,10 +110,13 @@ class Solver
 
   private:
     const cl::Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
-    Kernel& kernel(const std::string& file, const std::string& extra);
+    Kernel& kernel(const std::string& file, const std::string& extra) { return kernel(file, extra, groom_.nodes); }
+    Kernel& kernel(const std::string& file, const std::string& extra, int nodes);
     void launch(const std::string& pass, const std::string& extra, const cl::NDRange& items,
                 const cl::NDRange& group = cl::NullRange);
     void launch_strands(const std::string& pass, const std::string& extra, size_t strands);
+    void launch_strands(const std::string& pass, const std::string& extra, size_t strands, int nodes,
+                        const Buffers& on);
     void launch_grid(const std::string& pass, const std::string& extra = {});
     void empty_grid();
     void blur();
@@ -117,6 +128,11 @@ class Solver
     void simulate(const StepInfo& info);
     void make_density();
     void simulate_direct(const StepInfo& info);
+    std::vector<int> far_at(double error) const;
+    bool comes_near() const;
+    void make_thin();
+    void change_nodes(const std::vector<int>& far);
+    void simulate_thin(const StepInfo& info, const std::string& features, const std::string& filled);
     void upload(const StepInfo& info);
     void upload_direct(const StepPath& path, const Pose& before, bool teleport);
 
@@ -129,6 +145,11 @@ class Solver
     bool changed_ = true;            // anything but time since the last step
     bool asleep_ = false, drawn_asleep_ = false;
     bool blocks_may_sleep_ = false;
+    std::optional<View> view_;
+    std::optional<double> thin_error_;
+    mutable std::vector<FarBlock> far_blocks_; // if anybody has asked since they last changed
+    std::vector<int> far_, thin_now_;          // of each block: is it far, and does it step so; empty: none
+    std::optional<RestShape> thin_rest_;
     bool dense_ = true; // is the density that of the last step?
     long drawings_ = 0;
     int quiet_ = 0;        // steps that nothing outside has moved the hair in

@@ -23,9 +23,9 @@ static int chunk(const Device& device, const HairParams& params)
     return params.grid_resolution % device.width == 0 ? device.width : 1;
 }
 
-Kernel& Solver::kernel(const std::string& file, const std::string& extra)
+Kernel& Solver::kernel(const std::string& file, const std::string& extra, int nodes)
 {
-    const std::string options = fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={} -D CHUNK={} {}", groom_.nodes,
+    const std::string options = fmt::format("-D NODES={} -D RESOLUTION={} -D WIDTH={} -D CHUNK={} {}", nodes,
                                             params_.grid_resolution, device_.width, chunk(device_, params_), extra);
     const auto [found, fresh] = kernels_.try_emplace(file + " " + options);
     if (fresh)
@@ -61,15 +61,23 @@ void Solver::launch(const std::string& pass, const std::string& extra, const cl:
 
 void Solver::launch_strands(const std::string& pass, const std::string& extra, size_t strands)
 {
+    launch_strands(pass, extra, strands, groom_.nodes, buffers_);
+}
+
+void Solver::launch_strands(const std::string& pass, const std::string& extra, size_t strands, int nodes,
+                            const Buffers& on)
+{
     if (strands == 0)
         return;
     // On CPUs each work-item is a group of its own: left to itself PoCL makes one group of few work-items, on one core.
     // On GPUs whole groups: a number of strands that has no divisors would else be cut into groups of one.
     const size_t width = size_t(device_.width);
-    const size_t most = kernel(pass, extra).handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
+    Kernel& of = kernel(pass, extra, nodes);
+    const size_t most = of.handle.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.device);
     const size_t group = width > 1 ? 1 : std::min<size_t>(64, most);
     const size_t items = (strands + width - 1) / width;
-    launch(pass, extra, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group));
+    launches_.emplace_back(pass,
+                           run(device_, of, on, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group)));
 }
 
 // A work-item for each chunk of voxels. On CPUs a slice is a group, as far as that may be: left to itself PoCL makes a
@@ -151,6 +159,7 @@ void Solver::simulate(const StepInfo& info)
         launch_grid("clear_density");
     if (params_.solver_kind == 0)
         return simulate_direct(info);
+    change_nodes({});
     launch_strands("simulate_pbd",
                    fmt::format("{}{}{}{}{}", info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
                                density ? "-D DENSITY " : "", body_.grid ? "-D BODY_GRID " : "",
@@ -191,15 +200,25 @@ void Solver::simulate_direct(const StepInfo& info)
         *std::max_element(groom_.bend_factor.begin(), groom_.bend_factor.end()) * most_of(params_.bending_along);
     const bool bending = params_.bending_modulus > 0.0f || params_.bending_droop < 4.0 * links * links * stiffest;
     const bool contact = !colliders_.empty() || body_.grid;
-    if (stands_rigid(info))
+    const bool rigid = stands_rigid(info);
+    change_nodes(rigid ? std::vector<int>{} : far_);
+    if (rigid)
         return launch_strands("simulate_rigid", density ? "-D DENSITY " : "", size_t(groom_.blocks) * LANES);
-    launch_strands("simulate_direct",
-                   fmt::format("{}{}{}{}{}{}{}{}", bending ? "-D BENDING " : "",
-                               bending && rest_.curled ? "-D CURLED " : "", info.wind.w > 0.0f ? "-D WIND " : "",
-                               repels ? "-D REPULSION " : "", contact ? "-D CONTACT " : "",
-                               body_.grid ? "-D BODY_GRID " : "", density ? "-D DENSITY " : "",
-                               groom_.held.empty() ? "" : "-D HELD "),
-                   size_t(groom_.blocks) * LANES);
+    const auto features = [&](const RestShape& rest, bool dense)
+    {
+        return fmt::format("{}{}{}{}{}{}{}{}", bending ? "-D BENDING " : "", bending && rest.curled ? "-D CURLED " : "",
+                           info.wind.w > 0.0f ? "-D WIND " : "", repels ? "-D REPULSION " : "",
+                           contact ? "-D CONTACT " : "", body_.grid ? "-D BODY_GRID " : "", dense ? "-D DENSITY " : "",
+                           groom_.held.empty() ? "" : "-D HELD ");
+    };
+    const int thin = blocks_thin();
+    if (thin < groom_.blocks)
+        launch_strands("simulate_direct", features(rest_, density) + (thin > 0 ? "-D THIN=0 " : ""),
+                       size_t(groom_.blocks) * LANES);
+    if (thin > 0)
+        simulate_thin(info, features(*thin_rest_, false) + "-D THIN=1 ",
+                      fmt::format("{}{}{}", contact ? "-D CONTACT " : "", body_.grid ? "-D BODY_GRID " : "",
+                                  density ? "-D DENSITY " : ""));
     std::swap(buffers_["tension"], buffers_["tension_next"]);
     std::swap(buffers_["pace"], buffers_["pace_next"]);
     std::swap(buffers_["still"], buffers_["still_next"]);
@@ -245,6 +264,12 @@ void Solver::step(const std::vector<Substep>& wanted)
     changed_ = false;
     quiet_ = outside ? 0 : quiet_ + 1;
     asleep_ &= !outside;
+    far_ = thin_error_ ? far_at(*thin_error_) : std::vector<int>{};
+    if (asleep_ && comes_near())
+    {
+        asleep_ = false;
+        calm_ = 0;
+    }
     drawn_asleep_ &= asleep_;
     if (asleep_)
         return;

@@ -109,6 +109,31 @@ TEST_F(Commands, report_prints_one_json_object_with_every_figure_alone_on_stdout
     EXPECT_LT(number(result.out, "drawn_penetration_max_mm"), 2.0);
 }
 
+TEST_F(Commands, hair_far_away_steps_with_fewer_nodes_where_that_is_asked_for)
+{
+    const std::string far = " --set camera.distance=60", asked = " --set solver.far_tolerance=1";
+    const std::string told = "report small.toml --motion shake --seconds 0.2 --json";
+    const Result away = coif(told + far + asked), near = coif(told + asked), unasked = coif(told + far);
+    ASSERT_EQ(away.status, 0) << away.err;
+    EXPECT_GT(number(away.out, "blocks_thin"), 0);
+    EXPECT_EQ(number(away.out, "blocks_thin"), number(away.out, "blocks"));
+    EXPECT_EQ(number(near.out, "blocks_thin"), 0);
+    EXPECT_EQ(number(unasked.out, "blocks_thin"), 0);
+
+    // The camera that counts is the shot's own; through a lens as long as this one it sees the difference.
+    const std::string shot = "shot small.toml --size 96x72 --samples 1 --motion shake ";
+    const std::string lens = far + " --set camera.fov=1 --set solver.far_tolerance=";
+    ASSERT_EQ(coif(shot + "--time 0.4 -o all.png" + lens + "0").status, 0);
+    ASSERT_EQ(coif(shot + "--time 0.4 -o thin.png" + lens + "20").status, 0);
+    EXPECT_NE(contents("all.png"), contents("thin.png"));
+    ASSERT_EQ(coif(shot + "--time 0.4 -o near.png" + lens + "20 --camera 25,5,1").status, 0);
+    ASSERT_EQ(coif(shot + "--time 0.4 -o near_all.png" + lens + "0 --camera 25,5,1").status, 0);
+    EXPECT_EQ(contents("near.png"), contents("near_all.png"));
+    // A frame of a sequence is the shot of its time.
+    ASSERT_EQ(coif(shot + "--frames 0:12 --fps 30 -o f_%02d.png" + lens + "20").status, 0);
+    EXPECT_EQ(contents("f_12.png"), contents("thin.png"));
+}
+
 TEST_F(Commands, report_holds_the_levels_of_the_look_against_traced_light)
 {
     const std::string call = "report small.toml --set look.level=auto --seconds 0.1 ";

@@ -91,6 +91,7 @@ TEST(Style, EverySliderActsInTheNextStepUnderTheSolversThatReadItAndUnderNoOther
         write(test_device(), fresh.solver().buffers().at("velocity"), at.velocity);
         fresh.step(fresh.hand()); // fills the grid
         fresh.set_style(style);
+        fresh.set_view({{0.0, 0.0, 1e4}, {0.0, 0.0, -1.0}, 1000.0}); // solver.far_tolerance is of what is far away
         return after_a_step(fresh);
     };
     int acting = 0, idle = 0;

@@ -26,6 +26,13 @@ BenchHair::BenchHair(const Device& device, const std::string& preset, const std:
     solver_->set_colliders(all_colliders(style, assets_, grid.grid != nullptr));
 }
 
+void BenchHair::go_far()
+{
+    solver_->let_blocks_sleep(true); // it is kept awake
+    solver_->set_view(View{{0.0, 0.0, 1e6}, {0.0, 0.0, -1.0}, 1.0});
+    solver_->set_thin_error(0.0);
+}
+
 static PassTimes per_frame(PassTimes times, std::chrono::steady_clock::time_point begin, int count)
 {
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begin;
@@ -88,8 +95,13 @@ std::map<std::string, double> traffic_of(const Solver& solver)
     const double share = share_of_grid(solver);
     for (const auto& [key, kernel] : solver.kernels())
         for (size_t i = 0; i < kernel.arguments.size(); ++i)
-            bytes[kernel.name] += (keeps_to_room(kernel.name) ? share : 1.0) * (kernel.writes[i] ? 2.0 : 1.0) *
-                                  double(solver.buffers().at(kernel.arguments[i]).getInfo<CL_MEM_SIZE>());
+        {
+            const std::string thin = "thin_" + kernel.arguments[i];
+            const bool has_own = key.find("-D THIN=1") != key.npos && solver.buffers().contains(thin);
+            bytes[kernel.name] +=
+                (keeps_to_room(kernel.name) ? share : 1.0) * (kernel.writes[i] ? 2.0 : 1.0) *
+                double(solver.buffers().at(has_own ? thin : kernel.arguments[i]).getInfo<CL_MEM_SIZE>());
+        }
     return bytes;
 }
 
@@ -123,7 +135,8 @@ static double of_direct(const Solver& solver, const std::string& options)
     double substeps = 0.0;
     for (const int pace : read<int>(solver.device(), solver.buffers().at("pace"), size_t(groom.blocks)))
         substeps += double(substeps_of(pace - 1)) / groom.blocks;
-    return double(groom.guides) * (groom.nodes - 2) * (substeps * node_substep + node_step);
+    const int links = (groom.nodes - 2) / (has("-D THIN=1") ? 2 : 1);
+    return double(groom.guides) * links * (substeps * node_substep + node_step);
 }
 
 std::map<std::string, double> operations_of(const Solver& solver)

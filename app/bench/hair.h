@@ -22,6 +22,9 @@ class BenchHair
     // The same on a head that stands still where it is, for so many seconds; hair may sleep.
     PassTimes rest(double seconds);
 
+    // From now on all of it steps with half its nodes, as hair far away does where solver.far_tolerance allows it.
+    void go_far();
+
     Solver& solver() { return *solver_; }
     int strands() const { return solver_->groom().guides; }
 

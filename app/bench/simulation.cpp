@@ -47,11 +47,14 @@ std::vector<BenchRow> bench_whole_head(const Benching& with)
         std::vector<std::string> sets;
         bool with_bodies;
         double most_ms;
+        bool far = false;
     };
     const HeadCase cases[] = {
         {"lengths alone", straight_bob(kStrands, {"bending.droop=10000"}), false, 5.0 * floor_ms},
         {"bending, head", straight_bob(kStrands), true, 1000.0 / 60.0},
         {"bending, head, tolerance 1 %: courant 1.8", straight_bob(kStrands, {"solver.courant=1.8"}), true, NAN},
+        {"bending, head, far away: half the nodes", straight_bob(kStrands, {"solver.far_tolerance=20"}), true, NAN,
+         true},
         {"bending, head, wind, repulsion", straight_bob(kStrands, {"forces.wind=[3, 0, 0]", "forces.repulsion=1"}),
          true, 1000.0 / 30.0},
         {"bending to waves, head",
@@ -64,6 +67,8 @@ std::vector<BenchRow> bench_whole_head(const Benching& with)
     {
         with.progress(each.note);
         hair.push_back(std::make_unique<BenchHair>(with.device, "bob", each.sets, each.with_bodies));
+        if (each.far)
+            hair.back()->go_far();
         runs.push_back([h = hair.back().get()] { return h->frames(8, false); });
     }
     with.progress("102,400 strands");

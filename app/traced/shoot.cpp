@@ -85,7 +85,7 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     Simulation simulation(device, style);
     simulation.play(motion);
     progress.say(style.name() + ": moves");
-    play_to(simulation, options.seconds);
+    play_to(simulation, shot, options.seconds);
     simulation.solver().draw();
     HairParams params = simulation.params();
     params.look_level = LOOK_DUAL_SCATTERING; // shown as the levels that reckon with the strength of light are
