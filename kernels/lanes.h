@@ -39,8 +39,18 @@ typedef uint bits;
 // says that it is to be laid in where it is called, as GPUs' compilers do with everything.
 #define LAID_IN __attribute__((always_inline)) static inline
 
-// On CPUs 1 / sqrt(x) is faster than rsqrt(x) and rounds the same everywhere.
+// 1 / sqrt(x) of a positive number, to two units in the last place. On CPUs that is faster than rsqrt(x); where there
+// is an estimate to 14 bits, one step of Newton's method from it takes a quarter of the time of a root and a division.
+#if WIDTH == 16 && defined(__AVX512F__)
+static inline real inverse_sqrt(real x)
+{
+    const real estimate = __builtin_ia32_rsqrt14ps512_mask(x, (real)(0.0f), (unsigned short)0xffff);
+    return estimate * (1.5f - 0.5f * x * estimate * estimate);
+}
+#define INVERSE_SQRT(x) inverse_sqrt(x)
+#else
 #define INVERSE_SQRT(x) (1.0f / sqrt(x))
+#endif
 
 // Is it so in any lane? PoCL's any() tests lane after lane, which costs more than what it decides about.
 static inline int any_lane(whole test)

@@ -64,7 +64,8 @@ static inline void straighten(real* x, real* y, real* z, real rest, float scale,
 static inline void limit_length(real* x, real* y, real* z, real parent_x, real parent_y, real parent_z, real most)
 {
     const real dx = *x - parent_x, dy = *y - parent_y, dz = *z - parent_z;
-    const real back = fmax(excess(dx, dy, dz, most), (real)(0.0f));
+    const real beyond = excess(dx, dy, dz, most);
+    const real back = select((real)(0.0f), beyond, beyond > 1e-6f); // no less: that is how floats round
     *x -= back * dx;
     *y -= back * dy;
     *z -= back * dz;

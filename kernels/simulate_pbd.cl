@@ -135,9 +135,16 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     }
     HOLD_NODES(2, NODES);
 
-    float bend[NODES];
-    for (int i = 2; i < NODES; ++i)
-        bend[i] = clamp(info->bend / powr((float)(i - 1), params->solver_bending_attenuation), 0.0f, 1.0f);
+    // Eq. 5.6, a lane a node: powers are dear.
+    float bend[NODES + WIDTH];
+    for (int i = 0; i < NODES; i += WIDTH)
+    {
+        float beyond[WIDTH];
+        for (int lane = 0; lane < WIDTH; ++lane)
+            beyond[lane] = (float)max(i + lane - 1, 1);
+        const real attenuated = info->bend * exp(-params->solver_bending_attenuation * log(LANES_LOAD(beyond)));
+        LANES_STORE(fmin(fmax(attenuated, (real)(0.0f)), (real)(1.0f)), bend + i);
+    }
 
     // The colliders that these strands can reach.
     const float reach = (float)NODES * 1.2f; // segments, stretched ones too
@@ -183,13 +190,15 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     // The last word, in one walk from root to tip: hair that shall not stretch is taken back to its length, and hair
     // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two
     // spheres that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by
-    // then. Always as many turns: one strand's need must not change its neighbours' bits.
+    // then. As many turns for all lanes, for one strand's need must not change its neighbours' bits, but no more once
+    // one has pushed none of them: it would not if it came again.
     const real most = rest * (params->solver_stretching >= 1.0f ? MOST_STRETCH : MOST_RUBBER);
     for (int i = 2; i < NODES; ++i)
         for (int turns = 0; turns < CLOSING_TURNS; ++turns)
         {
             if (turns < CLOSING_TURNS / 2)
                 limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], most);
+            const Points kept = points(x[i], y[i], z[i]);
 #ifdef BODY_GRID
             if (turns % 3 == 0) // the head as it is: when the walk comes, when lengths are done, and last
                 find_body(x[i], y[i], z[i], body[i], body_distance, info);
@@ -198,6 +207,14 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
             for (int c = 0; c < near_count; ++c)
                 push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
             HOLD_NODES(i, i + 1);
+            const whole pushed = (x[i] != kept.x) | (y[i] != kept.y) | (z[i] != kept.z);
+#ifdef BODY_GRID
+            if (turns % 3 == 0 && !any_lane(pushed))
+                break;
+#else
+            if (!any_lane(pushed))
+                break;
+#endif
         }
 
     // A strand that is not finite, or came in so, starts again from its rest shape; its neighbours do not notice.
