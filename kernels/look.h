@@ -87,11 +87,12 @@ typedef struct LookSurface
 
 static inline int volume_voxels(constant LookVolume* volume) { return volume->x * volume->y * volume->z; }
 
-// A slice's two axes: u is x unless the sweep runs along it, v is z unless the sweep does. Sizes and strides.
+// A slice's two axes: u is x unless the sweep runs along it, v is z unless the sweep does. Sizes, and strides in what
+// look_extinction has left: as voxels lie, but for a ray along x, which has them turned so that u lies side by side.
 typedef struct Slices
 {
     int u, v, count;
-    int stride_u, stride_v, stride;
+    int stride_v, stride;
 } Slices;
 
 static inline Slices slices_of(constant LookVolume* volume, int axis)
@@ -101,9 +102,8 @@ static inline Slices slices_of(constant LookVolume* volume, int axis)
     s.u = axis == 0 ? volume->y : volume->x;
     s.v = axis == 2 ? volume->y : volume->z;
     s.count = axis == 0 ? volume->x : axis == 1 ? volume->y : volume->z;
-    s.stride_u = axis == 0 ? row : 1;
-    s.stride_v = axis == 2 ? row : plane;
-    s.stride = axis == 0 ? 1 : axis == 1 ? row : plane;
+    s.stride_v = axis == 0 ? s.u : axis == 2 ? row : plane;
+    s.stride = axis == 0 ? s.u * s.v : axis == 1 ? row : plane;
     return s;
 }
 

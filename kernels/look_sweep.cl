@@ -34,52 +34,68 @@ kernel void look_sweep(global const float* extinction, global float* depth, cons
 #ifdef FRONT
     real behind = (real)(0.0f);
 #endif
-    int last_u[WIDTH], last_v = j;
+    int lanes[WIDTH], last_v = j;
     for (int lane = 0; lane < WIDTH; ++lane)
-        last_u[lane] = first + lane;
+        lanes[lane] = lane;
+    const whole lane = LANES_LOAD(lanes);
+    whole last_u = first + lane;
     for (int passed = 0; passed < s.count; ++passed)
     {
-        global const float* slice = taken + (ray.from + ray.sign * passed) * s.stride;
+        const int slice = (ray.from + ray.sign * passed) * s.stride;
         const float shift_u = ray.slant.x * (float)passed, shift_v = ray.slant.y * (float)passed;
         const int whole_u = convert_int_rtn(shift_u), whole_v = convert_int_rtn(shift_v);
         const float fu = shift_u - (float)whole_u, fv = shift_v - (float)whole_v;
         const int u = on_ring(first + whole_u, s.u), v = on_ring(j + whole_v, s.v);
-        // A ray that has just come around starts afresh from outside.
-        const bool fresh = abs(v - last_v) > 1;
-        last_v = v;
+        // Beyond the last row there is nothing.
+        const int row = slice + v * s.stride_v + u, next_row = v + 1 < s.v ? row + s.stride_v : row;
+        const float is_next = v + 1 < s.v ? 1.0f : 0.0f;
+        whole columns = u + lane;
         real corners[4];
-        if (s.stride_u == 1 && u + WIDTH < s.u && v + 1 < s.v && abs(u - last_u[0]) <= 1)
+        if (u + WIDTH < s.u)
         {
-            global const float* row = slice + v * s.stride_v + u;
-            corners[0] = LANES_LOAD(row);
-            corners[1] = LANES_LOAD(row + 1);
-            corners[2] = LANES_LOAD(row + s.stride_v);
-            corners[3] = LANES_LOAD(row + s.stride_v + 1);
-            for (int lane = 0; lane < WIDTH; ++lane)
-                last_u[lane] = u + lane;
-            if (fresh)
-                tau = before = (real)(0.0f);
+            corners[0] = LANES_LOAD(taken + row);
+            corners[1] = LANES_LOAD(taken + row + 1);
+            corners[2] = is_next * LANES_LOAD(taken + next_row);
+            corners[3] = is_next * LANES_LOAD(taken + next_row + 1);
+        }
+        else if (s.u >= WIDTH && row >= s.u && next_row + WIDTH < (int)all)
+        {
+            // Some lanes have come around: they are a row's length before the others. What lies beyond the last voxel
+            // of a row is nothing, too.
+            const whole around = columns >= s.u, at_end = columns == s.u - 1;
+            columns = select(columns, columns - s.u, around);
+            corners[0] = select(LANES_LOAD(taken + row), LANES_LOAD(taken + row - s.u), around);
+            corners[1] = select(LANES_LOAD(taken + row + 1), LANES_LOAD(taken + row + 1 - s.u), around);
+            corners[2] = is_next * select(LANES_LOAD(taken + next_row), LANES_LOAD(taken + next_row - s.u), around);
+            corners[3] =
+                is_next * select(LANES_LOAD(taken + next_row + 1), LANES_LOAD(taken + next_row + 1 - s.u), around);
+            corners[1] = select(corners[1], (real)(0.0f), at_end);
+            corners[3] = select(corners[3], (real)(0.0f), at_end);
         }
         else
         {
-            float values[4][WIDTH], kept[WIDTH];
-            for (int lane = 0; lane < WIDTH; ++lane)
+            float values[4][WIDTH];
+            int column = u;
+            for (int i = 0; i < WIDTH; ++i)
             {
-                const int column = on_ring(u + lane, s.u);
-                kept[lane] = fresh || abs(column - last_u[lane]) > 1 ? 0.0f : 1.0f;
-                last_u[lane] = column;
+                lanes[i] = column;
                 for (int corner = 0; corner < 4; ++corner)
                 {
                     const int at_u = column + (corner & 1), at_v = v + (corner >> 1);
-                    values[corner][lane] =
-                        at_u < s.u && at_v < s.v ? slice[at_v * s.stride_v + at_u * s.stride_u] : 0.0f;
+                    values[corner][i] = at_u < s.u && at_v < s.v ? taken[slice + at_v * s.stride_v + at_u] : 0.0f;
                 }
+                column = column + 1 < s.u ? column + 1 : 0;
             }
+            columns = LANES_LOAD(lanes);
             for (int corner = 0; corner < 4; ++corner)
                 corners[corner] = LANES_LOAD(values[corner]);
-            tau *= LANES_LOAD(kept);
-            before *= LANES_LOAD(kept);
         }
+        // A ray that has just come around starts afresh from outside.
+        const whole fresh = (columns - last_u > 1) | (last_u - columns > 1) | (whole)(abs(v - last_v) > 1 ? -1 : 0);
+        tau = select(tau, (real)(0.0f), fresh);
+        before = select(before, (real)(0.0f), fresh);
+        last_u = columns;
+        last_v = v;
         const real here = (1.0f - fv) * ((1.0f - fu) * corners[0] + fu * corners[1]) +
                           fv * ((1.0f - fu) * corners[2] + fu * corners[3]);
         const real added = (0.5f * ray.slant.z) * (before + here);

@@ -87,6 +87,20 @@ double extinction(const Fibres& f, Vec direction, double self_shadow)
     return self_shadow * (glm::length(glm::cross(way, direction)) + 0.25 * kPi * any_way);
 }
 
+std::vector<float> as_voxels_lie(const std::vector<float>& extinction, const LookVolume& volume,
+                                 const std::vector<LookRay>& rays)
+{
+    std::vector<float> lies = extinction;
+    const size_t all = voxels_of(volume), nx = size_t(volume.x), ny = size_t(volume.y), nz = size_t(volume.z);
+    for (size_t ray = 0; ray < rays.size(); ++ray)
+        for (size_t i = 0; i < all && rays[ray].axis == 0; ++i)
+        {
+            const size_t x = i % nx, y = i / nx % ny, z = i / (nx * ny);
+            lies[ray * all + i] = extinction[ray * all + (x * nz + z) * ny + y];
+        }
+    return lies;
+}
+
 // The axes of a slice, and what a slice has.
 struct Slice
 {

@@ -31,6 +31,10 @@ std::vector<double> bodies_in_voxels(const std::vector<Capsule>& colliders, cons
 // 1/m, along a direction of unit length.
 double extinction(const Fibres& fibre, Vec direction, double self_shadow);
 
+// Of each ray of a bundle what look_extinction has left, as voxels lie: those along x have it turned (kernels/look.h).
+std::vector<float> as_voxels_lie(const std::vector<float>& extinction, const LookVolume& volume,
+                                 const std::vector<LookRay>& rays);
+
 // Optical depth of each ray of a bundle in each slice: [slice][v][u].
 std::vector<double> sweep(const float* extinction, const LookVolume& volume, const LookRay& ray);
 

@@ -314,8 +314,9 @@ TEST_F(LookPasses, TheVolumeHoldsTheHairAndTheBodiesInIt)
 TEST_F(LookPasses, FibresShadeByTheAreaThatTheyTurnToTheLight)
 {
     const std::vector<float> fibre = hair->values<float>("fibre", 4 * all);
-    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
     const std::vector<LookRay> rays = hair->values<LookRay>("rays", hair->suns);
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("extinction", hair->suns * all), volume, rays);
     double worst = 0.0, most = 0.0;
     for (size_t ray = 0; ray < hair->suns; ++ray)
         for (size_t i = 0; i < all; ++i)
@@ -330,9 +331,10 @@ TEST_F(LookPasses, FibresShadeByTheAreaThatTheyTurnToTheLight)
 
 TEST_F(LookPasses, SweepsAreTheTwins)
 {
-    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
-    const std::vector<float> depth = hair->values<float>("depth", hair->suns * all);
     const std::vector<LookRay> rays = hair->values<LookRay>("rays", hair->suns);
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("extinction", hair->suns * all), volume, rays);
+    const std::vector<float> depth = hair->values<float>("depth", hair->suns * all);
     for (size_t ray = 0; ray < hair->suns; ++ray)
     {
         const std::vector<double> expected = oracle::sweep(&taken[ray * all], volume, rays[ray]);
@@ -354,7 +356,8 @@ TEST_F(LookPasses, WhatIsSeenLiesInFrontOfWhatIsHidden)
     hair->bits(LOOK_FAR_FIELD);
     const oracle::Lit lit = hair->lit();
     const std::vector<float> fibre = hair->values<float>("fibre", 5 * all);
-    const std::vector<float> taken = hair->values<float>("eye_extinction", all);
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("eye_extinction", all), volume, {lit.eye_ray});
     const Vec l = xyz(lit.eye_ray.direction);
     EXPECT_GT(glm::dot(l, glm::normalize(Vec(kEye))), 0.99);
     double worst = 0.0, most = 0.0;
@@ -390,7 +393,8 @@ TEST_F(LookPasses, BodiesShadeApartFromHair)
     const oracle::Lit lit = hair->lit();
     const size_t coarse = oracle::voxels_of(lit.coarse);
     const std::vector<float> bodies = hair->values<float>("coarse_fibre", 5 * coarse);
-    const std::vector<float> taken = hair->values<float>("body_extinction", hair->suns * coarse);
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("body_extinction", hair->suns * coarse), lit.coarse, lit.body_rays);
     for (size_t ray = 0; ray < hair->suns; ++ray)
     {
         EXPECT_LT(glm::distance(xyz(lit.body_rays[ray].direction), xyz(lit.rays[ray].direction)), 1e-6);
@@ -419,9 +423,10 @@ TEST_F(LookPasses, BodiesShadeApartFromHair)
 // voxel.
 TEST_F(LookPasses, WhatASweepLeavesIsWhatAMarchFinds)
 {
-    const std::vector<float> taken = hair->values<float>("extinction", hair->suns * all);
     const oracle::Lit lit = hair->lit();
     const std::vector<LookRay>& rays = lit.rays;
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("extinction", hair->suns * all), volume, rays);
     for (size_t ray = 0; ray < rays.size(); ++ray)
     {
         const Vec l = xyz(rays[ray].direction);
@@ -448,7 +453,8 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
     const size_t coarse = oracle::voxels_of(lit.coarse);
     const std::vector<LookRay> rays = hair->values<LookRay>("sky_rays", SKY_RAYS);
     const std::vector<float> depth = hair->values<float>("sky_depth", SKY_RAYS * coarse);
-    const std::vector<float> taken = hair->values<float>("sky_extinction", SKY_RAYS * coarse);
+    const std::vector<float> taken =
+        oracle::as_voxels_lie(hair->values<float>("sky_extinction", SKY_RAYS * coarse), lit.coarse, rays);
     const std::vector<float> fine = hair->values<float>("fibre", 5 * all);
     const std::vector<float> mean = hair->values<float>("coarse_fibre", 5 * coarse);
     for (size_t plane = 0; plane < 5; ++plane) // nothing is lost between fine voxels and coarse ones
