@@ -190,32 +190,40 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     // The last word, in one walk from root to tip: hair that shall not stretch is taken back to its length, and hair
     // leaves the colliders, in turns, because either may undo a little of the other, and so may leaving one of two
     // spheres that overlap; colliders have the second half of the turns to themselves. Each node's parent is done by
-    // then. As many turns for all lanes, for one strand's need must not change its neighbours' bits, but no more once
-    // one has pushed none of them: it would not if it came again.
+    // then. A strand that the colliders have not pushed is done with its node, however often its neighbours come again,
+    // for their need must not change its bits.
     const real most = rest * (params->solver_stretching >= 1.0f ? MOST_STRETCH : MOST_RUBBER);
     for (int i = 2; i < NODES; ++i)
+    {
+        whole loose = (whole)(-1);
         for (int turns = 0; turns < CLOSING_TURNS; ++turns)
         {
-            if (turns < CLOSING_TURNS / 2)
-                limit_length(&x[i], &y[i], &z[i], x[i - 1], y[i - 1], z[i - 1], most);
-            const Points kept = points(x[i], y[i], z[i]);
 #ifdef BODY_GRID
-            if (turns % 3 == 0) // the head as it is: when the walk comes, when lengths are done, and last
-                find_body(x[i], y[i], z[i], body[i], body_distance, info);
-            push_above(&x[i], &y[i], &z[i], body[i][0], body[i][1], body[i][2], body[i][3]);
+            const int looks = turns % 3 == 0; // at the head: when the walk comes, when lengths are done, and last
+#else
+            const int looks = 1;
+#endif
+            Points to = points(x[i], y[i], z[i]);
+            if (turns < CLOSING_TURNS / 2)
+                limit_length(&to.x, &to.y, &to.z, x[i - 1], y[i - 1], z[i - 1], most);
+            const Points kept = to;
+#ifdef BODY_GRID
+            if (looks)
+                find_body(to.x, to.y, to.z, body[i], body_distance, info);
+            push_above(&to.x, &to.y, &to.z, body[i][0], body[i][1], body[i][2], body[i][3]);
 #endif
             for (int c = 0; c < near_count; ++c)
-                push_out(&x[i], &y[i], &z[i], colliders[near[c]]);
+                push_out(&to.x, &to.y, &to.z, colliders[near[c]]);
+            x[i] = select(x[i], to.x, loose);
+            y[i] = select(y[i], to.y, loose);
+            z[i] = select(z[i], to.z, loose);
             HOLD_NODES(i, i + 1);
-            const whole pushed = (x[i] != kept.x) | (y[i] != kept.y) | (z[i] != kept.z);
-#ifdef BODY_GRID
-            if (turns % 3 == 0 && !any_lane(pushed))
+            if (looks)
+                loose &= (x[i] != kept.x) | (y[i] != kept.y) | (z[i] != kept.z);
+            if (!any_lane(loose))
                 break;
-#else
-            if (!any_lane(pushed))
-                break;
-#endif
         }
+    }
 
     // A strand that is not finite, or came in so, starts again from its rest shape; its neighbours do not notice.
     whole bad = bad_position | bad_motion;
