@@ -69,6 +69,13 @@ static inline int any_lane(whole test)
 #endif
 }
 
+// The line of memory at p is wanted soon: what a CPU's vector of strands reads comes in bursts, with much work between.
+#if WIDTH > 1
+#define FETCH_SOON(p) __builtin_prefetch((const void*)(size_t)(p))
+#else
+#define FETCH_SOON(p)
+#endif
+
 // Two values side by side for each lane.
 static inline void gather_pair(global const float* from, const int* first, real* low, real* high)
 {

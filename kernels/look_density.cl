@@ -3,10 +3,10 @@
 // `copies` workers, with its share of the strands and sums of its own; with ATOMIC a strand, and one sum for all.
 #include "look.h"
 
-// To a voxel and to the next one along x, which lies beside it.
-static inline void add_fibre(global int4* sums, int voxel, float4 value, float further)
+// To a voxel and to the next one along x, which lies beside it, rounded: `half_up` has the signs of `value`.
+static inline void add_fibre(global int4* sums, int voxel, float4 value, float4 half_up, float further)
 {
-    const int8 both = convert_int8_rte((float8)(value * (1.0f - further), value * further));
+    const int8 both = convert_int8_rtz((float8)(value * (1.0f - further) + half_up, value * further + half_up));
     global int* sum = (global int*)(sums + voxel);
 #ifdef ATOMIC
     const int4 here = both.lo, next = both.hi;
@@ -32,6 +32,7 @@ static inline void add_piece(global int4* sums, float4 a, float4 b, constant Loo
         return;
     const int steps = (int)size + 1, row = volume->x, plane = volume->x * volume->y;
     const float share = size / (float)steps * volume->unit * inverse;
+    const float4 along = (float4)(way / size, 1.0f), half_up = copysign((float4)(0.5f), along);
     for (int i = 0; i < steps; ++i)
     {
         const float part = ((float)i + 0.5f) / (float)steps;
@@ -40,12 +41,12 @@ static inline void add_piece(global int4* sums, float4 a, float4 b, constant Loo
               below.y < (float)(volume->y - 1) && below.z < (float)(volume->z - 1)))
             continue;
         const int voxel = (int)below.x + row * (int)below.y + plane * (int)below.z;
-        const float4 value = (float4)(way / size, 1.0f) * (share * mix(a.w, b.w, part));
+        const float4 value = along * (share * mix(a.w, b.w, part));
         const float4 low = value * (1.0f - on.z), high = value * on.z;
-        add_fibre(sums, voxel, low * (1.0f - on.y), on.x);
-        add_fibre(sums, voxel + row, low * on.y, on.x);
-        add_fibre(sums, voxel + plane, high * (1.0f - on.y), on.x);
-        add_fibre(sums, voxel + plane + row, high * on.y, on.x);
+        add_fibre(sums, voxel, low * (1.0f - on.y), half_up, on.x);
+        add_fibre(sums, voxel + row, low * on.y, half_up, on.x);
+        add_fibre(sums, voxel + plane, high * (1.0f - on.y), half_up, on.x);
+        add_fibre(sums, voxel + plane + row, high * on.y, half_up, on.x);
     }
 }
 

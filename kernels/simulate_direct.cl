@@ -222,6 +222,13 @@ kernel void simulate_direct(global float* position, global float* velocity, glob
         const HeadPose last = head_pose(path, substep * parts), now = head_pose(path, (substep + 1) * parts);
         const float4 drag = path->drag[PACES * (substep ? DRAG_WITHIN : before) + pace_now];
         const float keep = drag.x, hg = h * drag.y;
+        for (int line = substep; line < 3 * NODES; line += substeps) // of the next block
+        {
+            FETCH_SOON(position + first + (3 * NODES + line) * LANES);
+            FETCH_SOON(velocity + first + (3 * NODES + line) * LANES);
+            if (line < NODES)
+                FETCH_SOON(multiplier + first_scalar + (NODES + line) * LANES);
+        }
 
         // Nodes 0 and 1: the segment under the scalp.
         const Points root_now = out_of_head(now, root_local);

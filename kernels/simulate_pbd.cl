@@ -173,6 +173,11 @@ kernel void simulate_pbd(global float* position, global float* velocity, global 
     {
         // Over-relaxed but for the last sweep, which leaves no overshoot (Young 1950; make_step_info has the factor).
         const float strength = sweep + 1 < params->solver_iterations ? info->stretch * info->relax : info->stretch;
+        for (int line = sweep; line < 3 * NODES; line += params->solver_iterations) // of the next block
+        {
+            FETCH_SOON(position + first + (3 * NODES + line) * LANES);
+            FETCH_SOON(velocity + first + (3 * NODES + line) * LANES);
+        }
 #ifdef BODY_GRID
         for (int i = 2; i < NODES; ++i)
             push_above(&x[i], &y[i], &z[i], body[i][0], body[i][1], body[i][2], body[i][3]);
