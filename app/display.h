@@ -11,7 +11,7 @@ namespace coif
 struct Display
 {
     float gain; // that light is multiplied by
-    int choice; // DISPLAY_NEUTRAL, DISPLAY_AGX or DISPLAY_NONE
+    int choice; // DISPLAY_NEUTRAL, DISPLAY_AGX or DISPLAY_NONE: 1, 2 or 3
 };
 
 // Of the parameters as authored. Left to itself, Kajiya-Kay is shown as it is, for its strengths were chosen on the

@@ -28,10 +28,14 @@ struct FrameBlock
 
 struct Renderer::Programs
 {
-    ShaderProgram strand, surface, ground, guide, background, add, show;
+    ShaderProgram strand, surface, ground, guide, background, add;
+    ShaderProgram show[3]; // neutral, agx, none: for display.choice from 1 on
     explicit Programs(const std::filesystem::path& folder)
         : strand(folder, "strand"), surface(folder, "surface"), ground(folder, "ground"), guide(folder, "guide"),
-          background(folder, "background", "screen"), add(folder, "add", "screen"), show(folder, "show", "screen")
+          background(folder, "background", "screen"),
+          add(folder, "add", "screen"), show{{folder, "show_neutral", "screen"},
+                                             {folder, "show_agx", "screen"},
+                                             {folder, "show_none", "screen"}}
     {
     }
 };
@@ -311,7 +315,7 @@ void Renderer::prepare(Target& target, int width, int height, int samples, GLenu
     target.depth_format = depth_format;
 }
 
-void Renderer::draw_solids(const FrameInput& frame)
+void Renderer::draw_solids(const FrameInput& frame, glm::vec3 eye)
 {
     const ShaderProgram& program = programs_->surface;
     const HairParams params = device_params(frame.params);
@@ -328,7 +332,12 @@ void Renderer::draw_solids(const FrameInput& frame)
     glUniform3f(program.uniform("stretch"), 0.0f, 0.0f, 0.0f);
     glBindVertexArray(mesh_array_);
     next_colors(mesh_vertices_.size() / 7);
+    // From outside, what looks away is hidden by what does not.
+    if (mesh_facing_ != 0 && glm::length(eye) > mesh_radius_ * params.head_scale)
+        glEnable(GL_CULL_FACE);
+    glCullFace(mesh_facing_ > 0 ? GL_BACK : GL_FRONT);
     glDrawElements(GL_TRIANGLES, mesh_index_count_, GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_CULL_FACE);
 
     glUniform4f(program.uniform("albedo"), kObstacleAlbedo.x, kObstacleAlbedo.y, kObstacleAlbedo.z, 0.0f);
     glUniform1i(program.uniform("on_head"), 0);
@@ -500,7 +509,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     glEnable(GL_DEPTH_TEST);
     colors_at_ = 0;
     draw_ground(frame, programs_->ground, eye);
-    draw_solids(frame);
+    draw_solids(frame, eye);
     const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
     if (strands && !rasterised)
     {
@@ -590,13 +599,12 @@ template <typename Picture> static void put_part(GLenum type, int x, int y, int 
 void Renderer::resolve(const FrameInput& frame, const Target& light, GLuint framebuffer, Part part, int left)
 {
     const Display display = display_of(frame.params);
-    const ShaderProgram& program = programs_->show;
+    const ShaderProgram& program = programs_->show[display.choice - 1];
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(left, 0, part.width, part.height);
     glUseProgram(program.id());
     glUniform1i(program.uniform("left"), left);
     glUniform1f(program.uniform("gain"), display.gain);
-    glUniform1i(program.uniform("display"), display.choice);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, light.texture);
     glUniform1i(program.uniform("picture"), 0);

@@ -127,7 +127,7 @@ class Renderer
     void upload_ground(const FrameInput& frame);
     // From a place in the pixel, and on the lens, m.
     void draw(const FrameInput& frame, int whole_width, int whole_height, Part part, glm::vec2 jitter, glm::vec2 lens);
-    void draw_solids(const FrameInput& frame);
+    void draw_solids(const FrameInput& frame, glm::vec3 eye);
     void draw_rings(const FrameInput& frame, const ShaderProgram& surface);
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame, const std::vector<float>& waves);
@@ -179,6 +179,8 @@ class Renderer
     std::vector<float> mesh_key_;
     std::vector<float> ground_;                         // corners, in the world as long as the head has not leapt, m
     float ground_height_ = 0.0f, ground_radius_ = 0.0f; // m
+    int mesh_facing_ = 0;                               // mesh_order.h
+    float mesh_radius_ = 0.0f;                          // about the head's origin, m, before head.scale
     float enclosed_ = 0.0f;                             // radius of a ball inside the head, m, before head.scale
     std::vector<std::pair<float, unsigned>> order_;
     std::vector<unsigned> indices_;

@@ -1,6 +1,7 @@
 // What the renderer sends to the driver before it draws: parameters, grids, the head, the strands and their order.
 #include "app/renderer.h"
 
+#include "app/mesh_order.h"
 #include "app/rasteriser.h"
 #include "app/root_shares.h"
 #include "sim/tied_hair.h"
@@ -74,8 +75,13 @@ void Renderer::upload_mesh(const FrameInput& frame)
     glBindVertexArray(mesh_array_);
     glBindBuffer(GL_ARRAY_BUFFER, mesh_buffer_);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(float)), vertices.data(), GL_STATIC_DRAW);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(assets.head.triangles.size() * sizeof(glm::uvec3)),
-                 assets.head.triangles.data(), GL_STATIC_DRAW);
+    const std::vector<glm::uvec3> triangles = along_curve(assets.head.positions, assets.head.triangles);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(triangles.size() * sizeof(glm::uvec3)), triangles.data(),
+                 GL_STATIC_DRAW);
+    mesh_facing_ = facing(assets.head.positions, triangles);
+    mesh_radius_ = 0.0f;
+    for (size_t i = 0; i < vertices.size(); i += 7)
+        mesh_radius_ = std::max(mesh_radius_, std::hypot(vertices[i], vertices[i + 1], vertices[i + 2]));
     mesh_index_count_ = GLsizei(assets.head.triangles.size() * 3);
     enclosed_ = enclosed_radius(vertices, assets.head.triangles, assets.scalp.center);
 }

@@ -1,4 +1,4 @@
-// From light to what a screen shows. Read by GLSL (shaders/show.frag) and by C++ (app/display.cpp), so that a picture
+// From light to what a screen shows. Read by GLSL (shaders/show.glsl) and by C++ (app/display.cpp), so that a picture
 // made by either is the same. Light is linear, of the sRGB primaries.
 #ifndef COIF_DISPLAY_H
 #define COIF_DISPLAY_H

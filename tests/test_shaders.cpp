@@ -47,7 +47,7 @@ TEST(Shaders, EveryProgramCompilesAndLinks)
 TEST(Shaders, ABrokenShaderIsToldByItsName)
 {
     const Window window(16, 16, Window::HIDDEN);
-    for (const char* broken : {"strand.vert", "strand.geom", "strand.frag", "surface.frag", "show.frag"})
+    for (const char* broken : {"strand.vert", "strand.geom", "strand.frag", "surface.frag", "show_agx.frag"})
     {
         const fs::path folder = shader_copy("broken_shaders");
         const std::string text = read_file(folder / broken);

@@ -1,0 +1,3 @@
+#version 150
+#define DISPLAY DISPLAY_AGX
+#include "show.glsl"

@@ -1,0 +1,3 @@
+#version 150
+#define DISPLAY DISPLAY_NEUTRAL
+#include "show.glsl"

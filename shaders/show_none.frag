@@ -1,0 +1,3 @@
+#version 150
+#define DISPLAY DISPLAY_NONE
+#include "show.glsl"
