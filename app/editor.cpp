@@ -485,6 +485,7 @@ void Editor::give_way(double ms)
     const bool gave = leeway_.gives();
     const LookCost& look = renderer_->look();
     const double light_ms = std::exchange(followed_, look.followed) != look.followed ? look.light_ms : 0.0;
+    leeway_.strands = int(simulation_->solver().groom().drawn.size());
     note_frame(leeway_, ms, light_ms, held_.what != Grab::NONE || ImGui::IsAnyItemActive());
     if (leeway_.gives() || gave)
         redraw_ = std::max(redraw_, 1);

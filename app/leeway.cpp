@@ -62,7 +62,8 @@ void note_frame(Leeway& leeway, double ms, double light_ms, bool dragging)
     }
     leeway.before = 1e30; // it was worth it, whatever the frames take later
     const bool light = !leeway.coarse_light && !leeway.light_in_vain && light_ms > kLight * ms;
-    if (leeway.fastest > kFrameWanted && (light || leeway.level < kMostHalvings))
+    const bool enough = leeway.level < kMostHalvings && leeway.strands >> (leeway.level + 1) >= kFewestStrands;
+    if (leeway.fastest > kFrameWanted && (light || enough))
         give(leeway, light);
     else
         judge_anew(leeway);

@@ -10,7 +10,8 @@ namespace coif
 struct Leeway
 {
     bool allowed = true;
-    int level = 0; // halvings of the strands
+    int strands = 1 << 20; // that there are
+    int level = 0;         // halvings of the strands
     bool coarse_light = false;
     bool light_was_last = false; // to be given, else a halving
     int frames = 0;              // drawn so
@@ -25,6 +26,7 @@ struct Leeway
 
 constexpr double kFrameWanted = 40.0; // ms: 25 frames a second
 constexpr int kMostHalvings = 4;
+constexpr int kFewestStrands = 1000; // that are left: fewer, as much wider, no longer look like hair
 
 // Takes note of a frame that took so long to draw, ms, `light_ms` of them for following light. One step down where the
 // fastest of three frames is slower than wanted while `dragging`, as long as the last step saved a tenth (of light

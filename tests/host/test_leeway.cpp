@@ -28,6 +28,17 @@ TEST(Leeway, fewer_strands_are_drawn_until_the_hand_is_followed_and_no_fewer)
     EXPECT_EQ(leeway.level, kMostHalvings);
 }
 
+TEST(Leeway, a_thousand_strands_are_left)
+{
+    for (const auto& [strands, level] : {std::pair(8000, 3), {7999, 2}, {2000, 1}, {1999, 0}, {1, 0}})
+    {
+        Leeway leeway;
+        leeway.strands = strands;
+        drag(leeway, 400, 1e4, 0.0);
+        EXPECT_EQ(leeway.level, level) << strands;
+    }
+}
+
 TEST(Leeway, one_slow_frame_among_quick_ones_changes_nothing)
 {
     Leeway leeway;
