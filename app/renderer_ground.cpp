@@ -72,7 +72,7 @@ void Renderer::draw_ground(const FrameInput& frame, const ShaderProgram& program
     if (frame.params.look_ground == 0)
         return;
     glBindVertexArray(ground_array_);
-    next_colors(ground_.size() / 7);
+    next_colors(ground_.size() / 3);
     if (eye.y <= ground_height_ + moved.y)
         return;
     const float4 backdrop = device_params(frame.params).look_background;

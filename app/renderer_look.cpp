@@ -48,8 +48,8 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     if (frame.params.look_ground != 0)
     {
         const glm::vec3 moved(frame.simulation->solver().jumped() - frame.simulation->solver().head().origin);
-        for (size_t i = 0; i < ground_.size(); i += 7)
-            add(triple(ground_, i) + moved, triple(ground_, i + 3), 0.0f, rgb(p.look_background), 0.0f);
+        for (size_t i = 0; i < ground_.size(); i += 3)
+            add(triple(ground_, i) + moved, glm::vec3(0.0f, 1.0f, 0.0f), 0.0f, rgb(p.look_background), 0.0f);
     }
     for (size_t i = 0; i < mesh_vertices_.size(); i += 7)
     {

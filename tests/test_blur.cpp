@@ -369,5 +369,42 @@ TEST_F(Blur, the_ground_takes_shadows)
     EXPECT_GT(partly, 200) << "it fades towards its rim";
 }
 
+// Where light is followed, what is drawn takes its colours from one list, the ground's first.
+TEST_F(Blur, the_ground_leaves_the_light_on_head_and_hair)
+{
+    Hairstyle style;
+    for (const char* set : {"interpolation.strands=1500", "camera.pitch=25", "camera.target=[0, -0.15, 0]",
+                            "look.background='#a0a0a0'", "look.level=far_field"})
+        assign(style, set);
+    Simulation simulation(test_device(), style);
+    const auto picture = [&](const char* ground, bool transparent)
+    {
+        Hairstyle one = style;
+        assign(one, ground);
+        simulation.set_style(one);
+        FrameInput frame = frame_of(simulation, 2);
+        frame.transparent = transparent;
+        return renderer->linear_picture(frame, 240, 180);
+    };
+    const LinearImage bare = picture("look.ground=off", true), ground = picture("look.ground=on", true),
+                      below = picture("look.ground=on", false);
+    int covered = 0, other = 0, lit = 0, open = 0;
+    for (size_t i = 0; i < bare.pixels.size(); i += 4)
+        if (bare.pixels[i + 3] > 0.9999f)
+        {
+            ++covered;
+            other += std::abs(ground.pixels[i] - bare.pixels[i]) > 1e-3f;
+        }
+        else if (bare.pixels[i + 3] == 0.0f && ground.pixels[i + 3] > 0.99f)
+        {
+            ++open;
+            lit += below.pixels[i] > 0.02f && below.pixels[i] <= below.pixels[i + 2] * 1.6f;
+        }
+    EXPECT_GT(covered, 3000);
+    EXPECT_EQ(other, 0);
+    EXPECT_GT(open, 500);
+    EXPECT_GT(lit, 9 * open / 10) << "most of the ground lies in the light, and is grey";
+}
+
 } // namespace
 } // namespace coif
