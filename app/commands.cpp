@@ -2,6 +2,7 @@
 
 #include "app/advise/advise.h"
 #include "app/batch/batch.h"
+#include "app/batch/results.h"
 #include "app/bench/bench.h"
 #include "app/editor.h"
 #include "app/export.h"
@@ -179,6 +180,34 @@ static void look_at_style(const Options& options)
     if (!good.contains(call))
         load_style(options);
     good.insert(call);
+}
+
+// Throws Error where -o names a file that the command reads. `save` and `morph` may change the style that they are
+// given.
+static void spare_what_is_read(std::vector<std::string> words, const std::string& style)
+{
+    std::string output;
+    const bool in_place = words[0] == "save" || words[0] == "morph";
+    words.erase(words.begin());
+    for (size_t i = 0; i < words.size() && output.empty(); ++i)
+        if ((words[i] == "-o" || words[i] == "--output") && i + 1 < words.size())
+        {
+            output = words[i + 1];
+            words.erase(words.begin() + long(i), words.begin() + long(i) + 2);
+        }
+        else if (const size_t skip = words[i].starts_with("--output=") ? 9 : words[i].starts_with("-o") ? 2 : 0; skip)
+        {
+            output = words[i].substr(skip);
+            words.erase(words.begin() + long(i));
+        }
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(output, error))
+        return;
+    if (in_place && std::filesystem::equivalent(find_style(style), output, error))
+        return;
+    for (const NamedFile& read : named_files(words))
+        if (std::filesystem::equivalent(read.file, output, error))
+            throw fail("-o {}: the command reads this file, and would write over it; name another", output);
 }
 
 // With `only_look` nothing is done: throws Error for what cannot be, where otherwise it is told and 2 is returned.
@@ -426,6 +455,7 @@ static int command(std::vector<std::string> words, bool only_look)
     if (words.empty() || is_command)
         words.insert(words.begin(), "edit");
     const std::string command_name = words[0];
+    const std::vector<std::string> said = words;
     try
     {
         std::reverse(words.begin(), words.end()); // as CLI11 takes them
@@ -454,6 +484,7 @@ static int command(std::vector<std::string> words, bool only_look)
             find_style(style);
         return 0;
     }
+    spare_what_is_read(said, options.style);
     if (is_batch(*batch))
         return run_batch(*batch, [](const std::vector<std::string>& line) { command(line, true); });
     if (shot_command->parsed())

@@ -1,5 +1,6 @@
 // What each command prints where, what it writes, and how it ends.
 #include "tests/commands.h"
+#include "tests/host/scratch.h"
 
 #include <algorithm>
 #include <sstream>
@@ -19,6 +20,39 @@ TEST_F(Commands, two_shots_are_the_same_to_the_byte)
     const Image image = load_png(folder / "a.png");
     EXPECT_EQ(image.width, 200);
     EXPECT_EQ(image.height, 160);
+}
+
+TEST_F(Commands, no_output_is_written_over_what_is_read)
+{
+    fs::copy_file(shipped("scalp.obj"), folder / "own.obj");
+    write("own.toml", contents("small.toml") + "[scalp]\nmesh = \"own.obj\"\n");
+    write("root.csv", "t,x,y,z\n0,0,0,0\n0.1,0,0,0\n");
+    write("jobs.txt", "shot own.toml --size 16x16 -o own.png\n");
+    ASSERT_EQ(coif("export own.toml -o own.hair").status, 0);
+    const std::vector<std::pair<std::string, std::string>> calls = {
+        {"shot own.toml --size 16x16 --samples 1 --time 0 -o ", "own.toml"},
+        {"shot own.toml --size 16x16 --samples 1 --time 0 --output=", "./own.toml"},
+        {"sheet own.toml --size 16x16 --samples 1 --time 0 -o", "own.toml"},
+        {"report own.toml --seconds 0.1 --settle 0 --traced 0 -o ", "own.toml"},
+        {"export own.toml -o ", "own.obj"},
+        {"export small.toml --set scalp.mesh=own.obj -o ", "own.obj"},
+        {"save own.toml -o ", "own.obj"},
+        {"import own.hair -o ", "own.hair"},
+        {"lab --root root.csv -o ", "root.csv"},
+        {"merge jobs.txt --out results -o ", "jobs.txt"}};
+    for (const auto& [call, file] : calls)
+    {
+        const std::string before = contents(file);
+        const Result result = coif(call + file);
+        EXPECT_EQ(result.status, 1) << call << file;
+        EXPECT_EQ(result.err,
+                  "coif: -o " + file + ": the command reads this file, and would write over it; name another\n");
+        EXPECT_TRUE(contents(file) == before) << call << file;
+        if (contents(file) != before)
+            write(file, before);
+    }
+    EXPECT_EQ(coif("save own.toml -o own.toml --set strand.length=0.2").status, 0) << "a style is changed in its place";
+    EXPECT_EQ(coif("export own.toml -o own.hair").status, 0) << "what is only written is written again";
 }
 
 TEST_F(Commands, a_transparent_shot_has_nothing_in_its_corners)

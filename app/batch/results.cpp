@@ -128,7 +128,7 @@ namespace
 {
 struct Named
 {
-    Hash& hash;
+    std::vector<NamedFile> files = {};
     std::set<fs::path> seen = {};
 
     void add_named(const std::string& text, const std::vector<fs::path>& folders)
@@ -141,8 +141,7 @@ struct Named
             const fs::path file = folder / text; // an absolute path replaces the folder
             if (!fs::is_regular_file(file, error) || !seen.insert(fs::weakly_canonical(file, error)).second)
                 continue;
-            add(hash, text);
-            add_file(hash, file);
+            files.push_back({text, file});
             for (const std::string& inner : texts_in(file))
                 add_named(inner, {file.parent_path()});
         }
@@ -150,21 +149,16 @@ struct Named
 };
 } // namespace
 
-std::string key_of(const Task& task, const std::string& program)
+std::vector<NamedFile> named_files(const std::vector<std::string>& words)
 {
-    Hash hash;
-    add(hash, program);
-    add(hash, task.name);
-    for (const std::string& word : task.words)
-        add(hash, word);
     // --set head.mesh=X is beside the style.
-    Named named{hash};
+    Named named;
     std::vector<fs::path> folders = {"."};
     std::error_code error;
-    for (const std::string& word : task.words)
+    for (const std::string& word : words)
         if (const fs::path folder = fs::path(word).parent_path(); !folder.empty() && fs::is_regular_file(word, error))
             folders.push_back(folder);
-    for (const std::string& word : task.words)
+    for (const std::string& word : words)
     {
         named.add_named(word, folders);
         if (const size_t at = word.find('='); at != word.npos)
@@ -176,6 +170,21 @@ std::string key_of(const Task& task, const std::string& program)
                 value = value.substr(1, value.size() - 2);
             named.add_named(value, folders);
         }
+    }
+    return named.files;
+}
+
+std::string key_of(const Task& task, const std::string& program)
+{
+    Hash hash;
+    add(hash, program);
+    add(hash, task.name);
+    for (const std::string& word : task.words)
+        add(hash, word);
+    for (const NamedFile& named : named_files(task.words))
+    {
+        add(hash, named.text);
+        add_file(hash, named.file);
     }
     return digits_of(hash);
 }

@@ -15,8 +15,18 @@ namespace coif
 // Of a whole file, 16 hexadecimal digits. Throws Error when it cannot be read.
 std::string digest_of_file(const std::filesystem::path& file);
 
-// What a task's result hangs on: its words, every file that they name, those that such a file names (of a .toml or
-// .gltf), and `program`. All is read anew at each call. Throws Error.
+struct NamedFile
+{
+    std::string text; // as it is named
+    std::filesystem::path file;
+};
+
+// Every file that a command's words name, or the value of a --set among them, and those that such a file names (of a
+// .toml or .gltf), each once.
+std::vector<NamedFile> named_files(const std::vector<std::string>& words);
+
+// What a task's result hangs on: its words, the files that they name, and `program`. All is read anew at each call.
+// Throws Error.
 std::string digest_of_program(); // its kernels, shaders, presets and assets too
 std::string key_of(const Task& task, const std::string& program = digest_of_program());
 
