@@ -7,6 +7,7 @@
 #include "app/editor.h"
 #include "app/export.h"
 #include "app/film.h"
+#include "app/image.h"
 #include "app/import.h"
 #include "app/lab.h"
 #include "app/measure/measure.h"
@@ -122,6 +123,7 @@ static int run_shot(const Options& options, const ShotOptions& shot, const Seque
     const double turn = sequence.view < 0 ? 0.0 : frames_of(sequence, options.seconds)[0].turn;
     if (traced)
         return shoot_traced(options, shot, *traced, turn);
+    check_folder(options.output);
     save_shot(options, shot, turn);
     fmt::print(stderr, "wrote {}\n", options.output);
     return 0;
@@ -182,24 +184,27 @@ static void look_at_style(const Options& options)
     good.insert(call);
 }
 
-// Throws Error where -o names a file that the command reads. `save` and `morph` may change the style that they are
-// given.
-static void spare_what_is_read(std::vector<std::string> words, const std::string& style)
+// Throws Error where -o names nothing, or a file that the command reads. `save` and `morph` may change the style that
+// they are given.
+static void check_output(std::vector<std::string> words, const std::string& style)
 {
-    std::string output;
+    std::optional<std::string> said;
     const bool in_place = words[0] == "save" || words[0] == "morph";
     words.erase(words.begin());
-    for (size_t i = 0; i < words.size() && output.empty(); ++i)
+    for (size_t i = 0; i < words.size() && !said; ++i)
         if ((words[i] == "-o" || words[i] == "--output") && i + 1 < words.size())
         {
-            output = words[i + 1];
+            said = words[i + 1];
             words.erase(words.begin() + long(i), words.begin() + long(i) + 2);
         }
         else if (const size_t skip = words[i].starts_with("--output=") ? 9 : words[i].starts_with("-o") ? 2 : 0; skip)
         {
-            output = words[i].substr(skip);
+            said = words[i].substr(skip);
             words.erase(words.begin() + long(i));
         }
+    if (said && said->empty())
+        throw Error("-o: names no file");
+    const std::string output = said.value_or("");
     std::error_code error;
     if (!std::filesystem::is_regular_file(output, error))
         return;
@@ -484,7 +489,7 @@ static int command(std::vector<std::string> words, bool only_look)
             find_style(style);
         return 0;
     }
-    spare_what_is_read(said, options.style);
+    check_output(said, options.style);
     if (is_batch(*batch))
         return run_batch(*batch, [](const std::vector<std::string>& line) { command(line, true); });
     if (shot_command->parsed())

@@ -61,6 +61,8 @@ void check_folder(const std::filesystem::path& file)
 {
     std::error_code error;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (std::filesystem::is_fifo(file, error) || std::filesystem::is_character_file(file, error))
+        return; // /dev/stdout: its folder is none of ours
     if (std::filesystem::is_directory(file, error))
         throw fail("{}: is a folder; name a file in it", file.string());
     if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK) != 0)

@@ -55,6 +55,21 @@ TEST_F(Commands, no_output_is_written_over_what_is_read)
     EXPECT_EQ(coif("export own.toml -o own.hair").status, 0) << "what is only written is written again";
 }
 
+TEST_F(Commands, a_shot_that_cannot_be_written_says_so_before_it_plays)
+{
+    // Nothing falls to rest for it: a mesh that is not there is not even looked for.
+    fs::create_directories(folder / "taken.png");
+    write("no_scalp.toml", contents("small.toml") + "[scalp]\nmesh = \"nothing.obj\"\n");
+    for (const auto& [output, fault] :
+         {std::pair("nowhere/a.png", "cannot be written; is its folder there, and writable?"),
+          std::pair("taken.png", "is a folder; name a file in it")})
+        EXPECT_EQ(coif(std::string("shot no_scalp.toml -o ") + output).err,
+                  std::string("coif: ") + output + ": " + fault + "\n");
+    for (const char* command : {"shot small.toml", "save small.toml", "export small.toml", "sheet small.toml"})
+        EXPECT_EQ(coif(std::string(command) + " -o ''").err, "coif: -o: names no file\n") << command;
+    EXPECT_EQ(coif("shot small.toml --size 16x16 --samples 1 --time 0 -o /dev/null").status, 0);
+}
+
 TEST_F(Commands, a_transparent_shot_has_nothing_in_its_corners)
 {
     ASSERT_EQ(coif("shot small.toml --size 200x160 --samples 1 --time 0 --transparent -o t.png").status, 0);
