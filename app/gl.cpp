@@ -12,13 +12,18 @@
 namespace coif
 {
 
+static bool start_video()
+{
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // ctrl-c in the terminal ends coif, and is no wish to close a window
+    return SDL_Init(SDL_INIT_VIDEO) == 0;
+}
+
 Window::Window(int width, int height, Visibility visibility)
 {
     if (visibility == HIDDEN)
         SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // ctrl-c in the terminal ends coif, and is no wish to close a window
-    if (SDL_Init(SDL_INIT_VIDEO) != 0)
+    if (!start_video())
         throw fail("no picture can be drawn: {}", SDL_GetError());
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
@@ -53,12 +58,14 @@ bool has_display()
     };
     if (!set("DISPLAY") && !set("WAYLAND_DISPLAY"))
         return false;
-    if (SDL_Init(SDL_INIT_VIDEO) != 0)
+    if (!start_video())
         return false;
     // Where the server that DISPLAY names does not answer, SDL takes a driver whose windows nobody sees.
     const std::string driver = SDL_GetCurrentVideoDriver();
+    if (driver != "offscreen" && driver != "dummy" && driver != "evdev")
+        return true; // stays connected: a server whose last client leaves starts anew, and is deaf meanwhile
     SDL_QuitSubSystem(SDL_INIT_VIDEO);
-    return driver != "offscreen" && driver != "dummy" && driver != "evdev";
+    return false;
 }
 
 bool is_software_renderer()
