@@ -120,6 +120,10 @@ static int run_shot(const Options& options, const ShotOptions& shot, const Seque
         return shoot_sequence(options, shot, sequence);
     if (!film_format(options.output).empty())
         throw fail("-o {}: a film is of many pictures; say --frames FIRST:LAST or --turntable VIEWS", options.output);
+    const std::string ending = std::filesystem::path(options.output).extension().string();
+    if (ending != ".png" && ending != ".hdr" && !ending.empty())
+        throw fail("-o {}: is no name for a picture that coif writes: .png, or .hdr for light as it is",
+                   options.output);
     const double turn = sequence.view < 0 ? 0.0 : frames_of(sequence, options.seconds)[0].turn;
     if (traced)
         return shoot_traced(options, shot, *traced, turn);
@@ -166,7 +170,10 @@ static int run_edit(Options options)
 {
     if (has_display())
         return edit(options);
-    options.output = find_style(options.style).stem().string() + ".png";
+    const std::string name = find_style(options.style).stem().string();
+    std::error_code error;
+    const bool taken = std::filesystem::exists(name + ".png", error);
+    options.output = taken ? unused_name(name).string() : name + ".png";
     save_png(options.output, take_shot(options, {}));
     fmt::print(stderr, "coif: there is no display, so here is a picture instead: {}\n",
                std::filesystem::absolute(options.output).string());

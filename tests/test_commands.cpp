@@ -302,6 +302,18 @@ TEST_F(Commands, without_a_display_the_editor_takes_a_picture_and_says_where)
     const Result deaf = coif("small.toml --set interpolation.strands=50", "DISPLAY=:4242 timeout 60");
     EXPECT_EQ(deaf.status, 0) << "no server answers there: an editor would run for ever where nobody sees it";
     EXPECT_TRUE(fs::exists(folder / "small.png"));
+    write_file(folder / "small.png", "mine");
+    EXPECT_EQ(coif("small.toml --set interpolation.strands=50").status, 0);
+    EXPECT_EQ(read_file(folder / "small.png"), "mine");
+}
+
+TEST_F(Commands, a_shot_is_written_under_a_name_that_tells_what_it_is)
+{
+    const Result result = coif("shot small.toml -o small.jpg");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("small.jpg"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(".png"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "small.jpg"));
 }
 
 TEST_F(Commands, advise_prints_a_table_and_writes_the_cheaper_style_beside)
