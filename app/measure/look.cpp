@@ -1,6 +1,6 @@
 // The levels of the look against light that is followed through the same strands (app/traced), in the hair's pixels
 // alone. How far two traced pictures with other random numbers are apart stands beside it; and so that errors that make
-// up for each other show, two parts of the light: what comes straight from the suns, and all of it but for the skin's.
+// up for each other show, two parts of the light over black skin: all of it, and what comes straight from the suns.
 #include "app/display.h"
 #include "app/likeness.h"
 #include "app/look_error.h"
@@ -195,12 +195,11 @@ std::vector<Row> measure_look(const Measuring& with)
                                           hair, shown),
                                  NAN);
                 };
-                part.params.look_sky_radiance = 0.0f;
-                add_part("far_field, light straight from the suns", LOOK_FAR_FIELD, 0);
-                part.params = style.params;
                 part.params.head_color = F4(0.0f, 0.0f, 0.0f, 1.0f);
                 part.params.head_scalp_tint = 0.0f;
                 add_part("dual_scattering, black skin", LOOK_DUAL_SCATTERING, kAllBounces);
+                part.params.look_sky_radiance = 0.0f;
+                add_part("far_field, black skin, suns alone, one bounce", LOOK_FAR_FIELD, 0);
             }
             if (!with.folder.empty())
             {
