@@ -17,9 +17,10 @@ static inline real taken_at(global const float* fibre, int at, int all, float4 l
 #else
     const real amount = LANES_LOAD(fibre + 3 * all + at);
 #endif
-    const real way = sqrt(x * x + y * y + z * z), per_way = 1.0f / fmax(way, (real)(1e-12f));
-    const real along = (x * l.x + y * l.y + z * l.z) * per_way;
-    const real across = sqrt(fmax(1.0f - along * along, (real)(0.0f)));
+    const real squared = x * x + y * y + z * z, per_way = INVERSE_SQRT(fmax(squared, (real)(1e-24f)));
+    const real way = squared * per_way, along = (x * l.x + y * l.y + z * l.z) * per_way;
+    const real across2 = fmax(1.0f - along * along, (real)(0.0f));
+    const real across = across2 * INVERSE_SQRT(fmax(across2, (real)(1e-12f)));
     return way * across + fmax(amount - way, (real)(0.0f)) * 0.785398163f;
 #endif
 }
