@@ -1,11 +1,39 @@
 // The colour of points of solid things, in the same light as the hair: Lambert, with light that comes round under the
 // skin (the redder, the further), and a broad highlight (GGX: Walter et al. 2007, with the joint masking of Heitz 2014)
-// where they are glossy. Hair hands light on to them in its own colour: each channel is shaded by exp(-tau (1 - forward)),
-// as the sky is. Work-item: WIDTH points.
+// where they are glossy. Hair hands light on to them in its own colour: each channel is shaded by
+// exp(-tau (1 - forward)), as the sky is. Work-item: WIDTH points.
 #include "look_rays.h"
 
 #define SKIN_MIRRORS 0.028f // Fresnel at normal incidence: an index of 1.4
 #define SKIN_ROUGH 0.45f
+
+// What of sun k's light comes through to a point, of each channel: the mean of four a voxel about it, across the light.
+// Where depth goes from little to much within a voxel, one alone would follow the voxels' stairs (means of light, not of
+// depth: Reeves, Salesin, Cook. Rendering antialiased shadows with depth maps. 1987). What of it bodies take, they keep:
+// only hair hands on. Their depth is known from coarser voxels.
+static inline void light_through(real* through, Points p, int k, float4 handed_on, constant LookVolume* volume,
+                                 constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
+                                 constant LookRay* body_rays, global const float* body_depth)
+{
+    const LookRay ray = rays[k];
+    const float4 l = ray.direction;
+    const float on[3] = {handed_on.x, handed_on.y, handed_on.z};
+    const float3 least = fabs(l.x) < 0.6f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
+    const float3 side = volume->corner.w * normalize(cross(l.xyz, least)), up = cross(l.xyz, side);
+    const size_t all = (size_t)volume_voxels(volume), all_coarse = (size_t)volume_voxels(coarse_volume);
+    for (int c = 0; c < 3; ++c)
+        through[c] = (real)(0.0f);
+    for (int tap = 0; tap < 4; ++tap)
+    {
+        const float3 by = (tap & 1 ? up : side) * (tap & 2 ? -1.0f : 1.0f);
+        const Points at = points(p.x + by.x, p.y + by.y, p.z + by.z);
+        const real tau = depth_to(depth + k * all, ray, in_voxels(at, l, 0.0f, volume), volume);
+        const real kept = fmin(tau, depth_to(body_depth + k * all_coarse, body_rays[k],
+                                             in_voxels(at, l, 0.0f, coarse_volume), coarse_volume));
+        for (int c = 0; c < 3; ++c)
+            through[c] += 0.25f * exp((on[c] - 1.0f) * (tau - kept) - kept);
+    }
+}
 
 kernel void look_surface(global const LookSurface* surfaces, global float4* lit, constant LookFrame* look_frame,
                          constant LookVolume* volume, constant LookVolume* coarse_volume, constant LookRay* rays,
@@ -46,18 +74,14 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     // A voxel and a half off the surface: the volume holds the body itself.
     const float off = 1.5f * volume->corner.w;
     const Points above = points(p.x + off * nx, p.y + off * ny, p.z + off * nz);
-    const size_t all = (size_t)volume_voxels(volume), all_coarse = (size_t)volume_voxels(coarse_volume);
     real diffuse[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, shine[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     for (int k = 0; k < look_frame->suns; ++k)
     {
         const LookRay ray = rays[k];
         const float4 l = ray.direction;
-        const float e[3] = {ray.irradiance.x, ray.irradiance.y, ray.irradiance.z};
-        const float on[3] = {handed_on.x, handed_on.y, handed_on.z}, reach[3] = {0.35f, 0.18f, 0.12f};
-        const real tau = depth_to(depth + k * all, ray, in_voxels(above, l, 0.0f, volume), volume);
-        // What of it bodies take, they keep: only hair hands on. Their depth is known from coarser voxels.
-        const real kept = fmin(tau, depth_to(body_depth + k * all_coarse, body_rays[k],
-                                             in_voxels(above, l, 0.0f, coarse_volume), coarse_volume));
+        const float e[3] = {ray.irradiance.x, ray.irradiance.y, ray.irradiance.z}, reach[3] = {0.35f, 0.18f, 0.12f};
+        real through[3];
+        light_through(through, above, k, handed_on, volume, coarse_volume, rays, depth, body_rays, body_depth);
         const real cosine = nx * l.x + ny * l.y + nz * l.z;
         const real hx = ex + l.x, hy = ey + l.y, hz = ez + l.z;
         const real per_h = INVERSE_SQRT(fmax(hx * hx + hy * hy + hz * hz, (real)(1e-12f)));
@@ -72,7 +96,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
                          fmax(masked, (real)(1e-4f));
         for (int c = 0; c < 3; ++c)
         {
-            const real reached = e[c] * exp((on[c] - 1.0f) * (tau - kept) - kept);
+            const real reached = e[c] * through[c];
             const real round = fmax(cosine + reach[c], (real)(0.0f)) * (1.0f / (1.0f + reach[c]));
             diffuse[c] += reached * mix(lit_by, round, far) * 0.318309886f;
             shine[c] += reached * ggx;

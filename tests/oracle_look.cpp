@@ -353,6 +353,27 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
     return sum;
 }
 
+// The share of a sun's light at a point, by channel: the mean over four points a voxel off, across the light.
+static Vec light_through(const Lit& lit, int sun, Vec at)
+{
+    const LookRay& ray = lit.rays[size_t(sun)];
+    const Vec l = xyz(ray.direction);
+    const Vec side = glm::normalize(glm::cross(l, std::abs(l.x) < 0.6 ? Vec(1, 0, 0) : Vec(0, 1, 0)));
+    const Vec up = glm::cross(l, side);
+    Vec mean(0.0);
+    for (const Vec& by : {side, up, -side, -up})
+    {
+        const Vec p = at + double(lit.volume.corner.w) * by;
+        const double tau =
+            depth_at(lit.depth.data() + size_t(sun) * voxels_of(lit.volume), lit.volume, ray, in_voxels(p, lit.volume));
+        const double kept = std::min(tau, depth_at(lit.body_depth.data() + size_t(sun) * voxels_of(lit.coarse),
+                                                   lit.coarse, lit.body_rays[size_t(sun)], in_voxels(p, lit.coarse)));
+        for (int c = 0; c < 3; ++c)
+            mean[c] += 0.25 * std::exp((lit.forward[c] - 1) * (tau - kept) - kept);
+    }
+    return mean;
+}
+
 Vec lit_surface(const Lit& lit, const LookSurface& surface)
 {
     const Vec n = xyz(surface.normal), p = xyz(surface.position), eye = glm::normalize(xyz(lit.frame.eye) - p);
@@ -364,10 +385,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
     {
         const LookRay& ray = lit.rays[size_t(i)];
         const Vec l = xyz(ray.direction), h = glm::normalize(l + eye);
-        const double tau = depth_at(lit.depth.data() + size_t(i) * voxels_of(lit.volume), lit.volume, ray,
-                                    in_voxels(above, lit.volume));
-        const double kept = std::min(tau, depth_at(lit.body_depth.data() + size_t(i) * voxels_of(lit.coarse),
-                                                   lit.coarse, lit.body_rays[size_t(i)], in_voxels(above, lit.coarse)));
+        const Vec through = light_through(lit, i, above);
         const double nl = std::max(0.0, glm::dot(n, l)), nh = glm::dot(n, h);
         const double d = a2 / (kPi * std::pow(nh * nh * (a2 - 1) + 1, 2));
         const double v =
@@ -375,7 +393,7 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
         const double f = 0.028 + 0.972 * std::pow(1.0 - std::clamp(glm::dot(eye, h), 0.0, 1.0), 5);
         for (int c = 0; c < 3; ++c)
         {
-            const double e = xyz(ray.irradiance)[c] * std::exp((lit.forward[c] - 1) * (tau - kept) - kept);
+            const double e = xyz(ray.irradiance)[c] * through[c];
             const double round = std::max(0.0, glm::dot(n, l) + reach[c]) / (1 + reach[c]);
             diffuse[c] += e * glm::mix(nl, round, double(surface.albedo.w)) / kPi;
             shine[c] += e * surface.normal.w * d * v * f * nl;

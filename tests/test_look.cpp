@@ -590,6 +590,45 @@ TEST_F(LookPasses, SolidThingsAreLitAsTheTwinSays)
     EXPECT_GT(mean, 0.05);
 }
 
+// The light along lines beside the straight edge of a capsule's shadow, on a plane behind it: as even as the edge is.
+TEST(Look, AShadowsEdgeIsStraight)
+{
+    Hair bodies(tangle(60, 1e-7f));
+    const Vec from(-0.08, 0.06, -0.06), axis(0.16, 0.03, 0.12), sun = glm::normalize(Vec(0.2, 0.9, -0.3));
+    bodies.solver->set_colliders({{glm::vec3(from), 0.03f, false, {glm::vec3(from + axis)}}});
+    bodies.solver->step({{Pose{}, 2.0 / 60.0, 1.0f / 60.0f}});
+    bodies.light(light_from({glm::vec3(sun)}, glm::vec3(0.0f)));
+    const Vec along = glm::normalize(axis), across = glm::normalize(glm::cross(sun, along));
+    const Vec middle = from + 0.5 * axis - 0.06 * sun;
+    const int lines = 81, points = 81;
+    std::vector<LookSurface> surfaces;
+    for (int o = 0; o < lines; ++o)
+        for (int i = 0; i < points; ++i)
+        {
+            const Vec at = middle + (0.01 + 0.0005 * o) * across + 0.0005 * (i - points / 2) * along;
+            surfaces.push_back({F4(float(at.x), float(at.y), float(at.z), 1.0f),
+                                F4(float(sun.x), float(sun.y), float(sun.z), 0.0f), F4(1.0f, 1.0f, 1.0f, 0.0f)});
+        }
+    const std::vector<float4> lit = bodies.shading.lit(surfaces, kEye);
+    double least = 1e9, most = 0.0, uneven = 0.0;
+    for (int o = 0; o < lines; ++o)
+    {
+        double sum = 0.0, squares = 0.0;
+        for (int i = 0; i < points; ++i)
+        {
+            const double value = lit[size_t(o * points + i)].y;
+            sum += value / points;
+            squares += value * value / points;
+        }
+        least = std::min(least, sum);
+        most = std::max(most, sum);
+        uneven = std::max(uneven, std::sqrt(std::max(0.0, squares - sum * sum)));
+    }
+    for (int o = 0; o < lines; o += 8)
+        EXPECT_LT(least, 0.1 * most) << "all of the shadow's edge is seen";
+    EXPECT_LT(uneven, 0.05 * most); // one point alone: 0.066
+}
+
 // ---- what must hold
 // --------------------------------------------------------------------------------------------------
 
