@@ -39,7 +39,7 @@ std::vector<float> corners_of(const Band& band)
             const float u = float(i) / kAround, v = float(j) / kAcross, little = 1e-3f;
             const glm::vec3 p = at(u, v);
             const glm::vec3 n = glm::normalize(
-                glm::cross(at(u, v + little) - at(u, v - little), at(u + little, v) - at(u - little, v)));
+                glm::cross(at(u + little, v) - at(u - little, v), at(u, v + little) - at(u, v - little)));
             corners.insert(corners.end(), {p.x, p.y, p.z, n.x, n.y, n.z, 0.0f});
         }
     return corners;
@@ -52,8 +52,8 @@ std::vector<glm::uvec3> band_triangles()
         for (unsigned j = 0; j < kAcross; ++j)
         {
             const unsigned a = i * (kAcross + 1) + j, b = a + kAcross + 1;
-            triangles.emplace_back(a, a + 1, b);
-            triangles.emplace_back(b, a + 1, b + 1);
+            triangles.emplace_back(a, b, a + 1);
+            triangles.emplace_back(b, b + 1, a + 1);
         }
     return triangles;
 }

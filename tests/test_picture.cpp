@@ -1,10 +1,13 @@
 // Pictures: that they hang on their input alone, and show what they should.
 #include "app/renderer.h"
+#include "app/renderer_rings.h"
 #include "sim/error.h"
 #include "sim/source.h"
 #include "tests/on_device.h"
 
 #include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <memory>
@@ -329,6 +332,30 @@ TEST_F(Picture, TheCameraFollowsItsNumbersThereAndBack)
     EXPECT_NEAR(kept.distance, camera.distance, 1e-3);
     EXPECT_LE(glm::distance(kept.target, camera.target), 1e-3);
     EXPECT_NEAR(glm::distance(camera.position(), camera.target), camera.distance, 1e-12);
+}
+
+// Light falls on the outside of a band: its corners' normals and its triangles face away from the line that it is wound
+// about.
+TEST(Rings, FaceOutward)
+{
+    for (const glm::vec3 axis : {glm::vec3(0, 0, 1), glm::vec3(1, 0.2f, 0), glm::vec3(-0.1f, -2.0f, 0.3f)})
+    {
+        const Band band = {{0.01f, 0.1f, -0.1f}, axis, 0.014f, 0.004f};
+        const std::vector<float> corners = corners_of(band);
+        const auto triple = [&](size_t i) { return glm::vec3(corners[i], corners[i + 1], corners[i + 2]); };
+        const auto out_of = [&](glm::vec3 p)
+        {
+            const glm::vec3 from = p - band.center, t = glm::normalize(axis);
+            return glm::normalize(p - (band.center + band.radius * glm::normalize(from - t * glm::dot(t, from))));
+        };
+        for (size_t i = 0; i < corners.size(); i += 7)
+            EXPECT_GT(glm::dot(triple(i + 3), out_of(triple(i))), 0.3f) << i / 7;
+        for (const glm::uvec3& triangle : band_triangles())
+        {
+            const glm::vec3 a = triple(7 * triangle.x), b = triple(7 * triangle.y), c = triple(7 * triangle.z);
+            EXPECT_GT(glm::dot(glm::cross(b - a, c - a), out_of((a + b + c) / 3.0f)), 0.0f) << triangle.x;
+        }
+    }
 }
 
 TEST_F(Picture, SizesThatCannotBeAreRefused)
