@@ -1,5 +1,6 @@
 #include "sim/hairstyle_lists.h"
 
+#include "sim/shown.h"
 #include "sim/toml_values.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ Setting read_setting(const fs::path& file, const std::string& path, const toml::
 {
     const ParamInfo* info = find_param(path);
     if (!info)
-        throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), path,
+        throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), shown(path),
                    nearest_param(path));
     Hairstyle read;
     try
@@ -247,10 +248,10 @@ struct EntryReader
                 for (auto&& [inner, node] : *group)
                     if (const std::string path = name + "." + std::string(inner.str()); !find_param(path))
                         throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, inner.source()),
-                                   path, nearest_param(path));
+                                   shown(path), nearest_param(path));
                 continue;
             }
-            throw fail("{}: a {} has no '{}'; it has {}{}", place(file, value.source()), list, name,
+            throw fail("{}: a {} has no '{}'; it has {}{}", place(file, value.source()), list, shown(name),
                        fmt::join(known, ", "), takes_settings ? ", and parameters as strand.length" : "");
         }
         for (const std::string& name : needed)
@@ -358,7 +359,7 @@ static void check(const Region& region, const EntryReader& at)
     for (const std::string& area : region.where)
         if (std::find(region_areas().begin(), region_areas().end(), area) == region_areas().end())
             throw at.wrong(*at.table.get("where"), "where",
-                           fmt::format("is '{}', but must be of {}", area, fmt::join(region_areas(), ", ")));
+                           fmt::format("is '{}', but must be of {}", shown(area), fmt::join(region_areas(), ", ")));
     if (!region.weights.empty() && !region.file.empty())
         throw at.wrong(*at.table.get("weights"), "weights", "must be left out where a file holds them");
 }
@@ -384,9 +385,9 @@ static void check(ScalpMap& map, const EntryReader& at)
     const ParamInfo* info = find_param(map.of);
     const toml::node& of = *at.table.get("of");
     if (!info)
-        throw at.wrong(
-            of, "of",
-            fmt::format("is '{}', but no parameter is called that; the nearest is {}", map.of, nearest_param(map.of)));
+        throw at.wrong(of, "of",
+                       fmt::format("is '{}', but no parameter is called that; the nearest is {}", shown(map.of),
+                                   nearest_param(map.of)));
     if (info->on_host() || info->scope != Scope::STRAND)
         throw at.wrong(of, "of", fmt::format("is {}, which is the same for the whole head", map.of));
     const bool color = info->kind == Kind::COLOR;
@@ -458,7 +459,7 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
         for (size_t j = 0; j < i; ++j)
             if (style.host.regions[i].name == style.host.regions[j].name)
                 throw fail("{}: two regions are called '{}'", style.places[fmt::format("region[{}]", i)],
-                           style.host.regions[i].name);
+                           shown(style.host.regions[i].name));
 }
 
 void load_beside(Hairstyle& style)
@@ -496,7 +497,7 @@ std::vector<float> read_map_values(const fs::path& file, Limits bounds)
         const auto [next, error] = std::from_chars(at, end, value);
         if (error != std::errc() || !(value >= bounds.min && value <= bounds.max) ||
             (next < end && !strchr(" \t\r\n", *next)))
-            throw fail("{}:{}: must hold numbers from {} to {} only", file.string(), line, bounds.min, bounds.max);
+            throw fail("{}:{}: must hold numbers from {} to {} only", shown_file(file), line, bounds.min, bounds.max);
         values.push_back(value);
         at = next;
     }

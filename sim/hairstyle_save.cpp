@@ -1,5 +1,6 @@
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
+#include "sim/shown.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -18,14 +19,14 @@ std::string read_file(const fs::path& file, size_t limit)
 {
     std::error_code error;
     if (!fs::is_regular_file(file, error))
-        throw fail("{}: {}", file.string(), fs::exists(file, error) ? "is no plain file" : "there is no such file");
+        throw fail("{}: {}", shown_file(file), fs::exists(file, error) ? "is no plain file" : "there is no such file");
     if (fs::file_size(file, error) > limit || error)
-        throw fail("{}: is larger than the {} bytes that coif reads of such a file", file.string(), limit);
+        throw fail("{}: is larger than the {} bytes that coif reads of such a file", shown_file(file), limit);
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
     if (!in)
-        throw fail("{}: cannot be read", file.string());
+        throw fail("{}: cannot be read", shown_file(file));
     return std::move(text).str();
 }
 
@@ -95,7 +96,7 @@ void refuse_deep_keys(const std::string& text, const fs::path& file)
         in_number = digit || c == '.';
     }
     if (surplus > 4000)
-        throw fail("{}: holds keys with more dots than coif takes", file.string());
+        throw fail("{}: holds keys with more dots than coif takes", shown_file(file));
 }
 
 fs::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
@@ -110,7 +111,7 @@ fs::path resolve_path(const Hairstyle& style, const std::string& key, const std:
         return data;
     const auto at = style.places.find(key);
     throw fail("{}{}: no file '{}', neither as {} nor as {}", at == style.places.end() ? "" : at->second + ": ", key,
-               written, beside.string(), data.string());
+               shown(written), shown_file(beside), shown_file(data));
 }
 
 fs::path named_file(const Hairstyle& style, const std::string& key, const std::string& written)

@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/shown.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -142,7 +143,7 @@ static void fit_sphere(Scalp& scalp)
 
 Scalp load_scalp(const std::filesystem::path& file)
 {
-    const std::string name = file.string();
+    const std::string name = shown_file(file);
     tinyobj::ObjReaderConfig config;
     config.triangulate = false;
     tinyobj::ObjReader reader;
@@ -219,7 +220,7 @@ static void check_ply(const std::filesystem::path& file)
     std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
     const size_t end = head.find("\nend_header");
     if (head.starts_with("ply") && (end == head.npos || head.find_first_of(" \r\n", end + 1) != end + 11))
-        throw fail("{}: is no mesh that coif can read: its header has no end_header", file.string());
+        throw fail("{}: is no mesh that coif can read: its header has no end_header", shown_file(file));
 }
 
 // Nor does it look whether a file's corners are there before it reads them, and it aborts at a face without any.
@@ -251,7 +252,7 @@ static float unit_of(const aiScene& scene)
 
 FileMesh load_mesh(const std::filesystem::path& file)
 {
-    const std::string name = file.string();
+    const std::string name = shown_file(file);
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         throw fail("{}: {}", name, std::filesystem::exists(file, error) ? "is no plain file" : "there is no such file");
@@ -265,7 +266,7 @@ FileMesh load_mesh(const std::filesystem::path& file)
                                                             aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                             aiComponent_CAMERAS | aiComponent_MATERIALS);
     check_ply(file);
-    const aiScene* scene = importer.ReadFile(name, 0);
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
     if (scene)
     {
         check_corners(*scene, name);

@@ -1,4 +1,5 @@
 // What coif says to a broken style: the words are part of the program.
+#include "sim/shown.h"
 #include "sim/simulation.h"
 #include "tests/host/scratch.h"
 
@@ -268,6 +269,107 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     EXPECT_EQ(loaded("[head]\nmesh = ''\nspheres = ''\n"), "no error");
 }
 
+// Bytes of one letter each, in UTF-8, none of which does anything in a terminal but to show?
+bool prints(const std::string& text)
+{
+    for (size_t i = 0; i < text.size();)
+    {
+        const auto byte = [&](size_t at) { return at < text.size() ? int(static_cast<unsigned char>(text[at])) : 0; };
+        const size_t length = byte(i) < 0x80 ? 1 : byte(i) < 0xe0 ? 2 : byte(i) < 0xf0 ? 3 : 4;
+        if (byte(i) < 0x20 || byte(i) == 0x7f || (byte(i) >= 0x80 && byte(i) < 0xc2) || byte(i) >= 0xf5 ||
+            (byte(i) == 0xc2 && byte(i + 1) < 0xa0))
+            return false;
+        for (size_t k = 1; k < length; ++k)
+            if ((byte(i + k) & 0xc0) != 0x80)
+                return false;
+        i += length;
+    }
+    return true;
+}
+
+TEST(LongTexts, are_told_by_their_beginnings_wherever_a_file_says_them)
+{
+    const Scratch scratch;
+    // Letters of one, two and four bytes, so that no cut by bytes passes, and what moves a terminal's cursor.
+    std::string text;
+    for (int i = 0; i < 5000; ++i)
+        text += "a\xc3\xa9\xf0\x9f\xa6\xb1\\u001b[2J\\u009b";
+    const std::string q = '"' + text + '"'; // as key and as value
+    const std::string of_styles[] = {
+        "[" + q + "]\nlength = 1\n",
+        q + " = 1\n",
+        "[strand]\n" + q + " = 1\n",
+        "[strand]\nlength = 1\n[strand]\n" + q + " = 1\n",
+        "[" + q + "]\n[" + q + "]\n",
+        "[[collider]]\n" + q + " = 1\ncenter = [0, 0, 0]\nradius = 1\n",
+        "[[region]]\nname = \"a\"\nwhere = " + q + "\n",
+        "[[region]]\nname = \"a\"\nstrand." + q + " = 1\n",
+        "[[region]]\nname = " + q + "\n[[region]]\nname = " + q + "\n",
+        "[[region]]\nname = " + q + "\nplanes = [[0, 1, 0, 50]]\n",
+        "[[region]]\nname = " + q + "\ngroup = " + q + "\n",
+        "[[region]]\nname = " + q + "\nweights = [1]\n",
+        "[[region]]\nname = \"a\"\nfile = " + q + "\n",
+        "[[map]]\nof = " + q + "\nvalues = [1]\n",
+        "[[map]]\nof = \"strand.length\"\nfile = " + q + "\n",
+        "[[tie]]\nname = " + q + "\nregions = " + q + "\n",
+        "[[light]]\nname = " + q + "\n",
+        "[variant." + q + "]\n" + q + " = 1\n",
+        "[variant.a]\nstrand." + q + " = 1\n",
+        "[groom]\nrest = " + q + "\n",
+        "[groom]\nimport = " + q + "\n",
+        "[scalp]\nmesh = " + q + "\n",
+        "[head]\nmesh = " + q + "\n",
+        "[head]\nspheres = " + q + "\n",
+        "[look]\nlights = " + q + "\n",
+    };
+    const auto expect_short = [](const std::string& told, const std::string& input)
+    {
+        EXPECT_NE(told, "no error") << input.substr(0, 60);
+        EXPECT_LT(told.size(), 1200u) << input.substr(0, 60);
+        EXPECT_TRUE(prints(told)) << input.substr(0, 60);
+    };
+    for (const std::string& style : of_styles)
+        expect_short(error_of([&] { load_assets(load_hairstyle(scratch.write("bob.toml", style))); }), style);
+    for (const std::string& lights : {q + " = 1\n", "[sky]\nradiance = 1\n" + q + " = 1\n"})
+        expect_short(error_of([&] { load_lights(scratch.write("l.toml", lights)); }), lights);
+    expect_short(error_of([&] { load_colliders(scratch.write("c.toml", q + " = 1\n")); }), "colliders");
+    for (const std::string& motion :
+         {q + " = 1\n", "[[step]]\nchannel = \"x\"\nat = 0\nby = 1\n" + q + " = 1\n", "[" + q + "]\n[" + q + "]\n"})
+        expect_short(error_of([&] { load_motion(scratch.write("m.toml", motion)); }), motion);
+    const std::string raw = repeated("a\x1b[2J\xc2\x9b\xff\n", 5000); // as an argument may be
+    Hairstyle style;
+    style.variants[raw] = {};
+    for (const std::string& set : {raw, raw + "=1", "strand.length=" + raw, "strand.length=1 " + raw})
+        expect_short(error_of([&] { assign(style, set); }), "--set");
+    expect_short(error_of([&] { switch_variant(style, raw + "x"); }), "--variant");
+    expect_short(error_of([&] { find_motion(raw); }), "--motion");
+    expect_short(error_of([&] { load_hairstyle(raw); }), "STYLE");
+}
+
+TEST(LongTexts, end_in_dots_after_eighty_letters_of_however_many_bytes)
+{
+    EXPECT_EQ(shown(""), "");
+    EXPECT_EQ(shown(std::string(80, 'k')), std::string(80, 'k'));
+    EXPECT_EQ(shown(std::string(81, 'k')), std::string(80, 'k') + "...");
+    EXPECT_EQ(shown(repeated("\u00e9", 80)), repeated("\u00e9", 80));
+    EXPECT_EQ(shown(repeated("\U0001f9b1", 81)), repeated("\U0001f9b1", 80) + "...");
+    EXPECT_EQ(shown("two\nlines\t\x1b[2J\x7f"), "two\\nlines\\u0009\\u001b[2J\\u007f");
+    EXPECT_EQ(shown("\u009b \u202e"), "\\u009b \\u202e") << "a terminal's escape in one letter, and writing backwards";
+    for (const auto& [bytes, expected] : {std::pair("\xff", "\\xff"),
+                                          {"\xc3", "\\xc3"},
+                                          {"\xc0\xaf", "\\xc0\\xaf"},
+                                          {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
+                                          {"\xc3(", "\\xc3("}})
+        EXPECT_EQ(shown(bytes), expected) << "which is no UTF-8";
+
+    const std::string deep = "/" + repeated("folder/", 12) + "bob.toml"; // such as people have
+    EXPECT_EQ(shown_file(deep), deep);
+    const std::string hostile = shown_file("begin" + std::string(1 << 20, 'x') + "\u00e9/end.obj");
+    EXPECT_TRUE(hostile.starts_with("beginxxx") && hostile.ends_with("xxx\u00e9/end.obj")) << hostile;
+    EXPECT_EQ(hostile.size(), 80u + 3u + 80u);
+    EXPECT_TRUE(prints(shown_file(std::string(100, 'x') + repeated("\u00e9", 100))));
+}
+
 TEST(BrokenScalp, is_told_with_its_line)
 {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 0 1\n";
@@ -362,7 +464,7 @@ TEST(Assignment, that_will_not_do_is_told_and_changes_nothing)
          "--set strand.lenght=1: no parameter is called 'strand.lenght'; the nearest is strand.length"},
         {"strand.length=", "--set strand.length=: strand.length must be a number, not text"},
         {"strand.length=long", "--set strand.length=long: 'long' is no TOML value"},
-        {"strand.length=0.2\n[x]", "--set strand.length=0.2\n[x]: '0.2\n[x]' is more than one TOML value"},
+        {"strand.length=0.2\n[x]", "--set strand.length=0.2\\n[x]: '0.2\\n[x]' is more than one TOML value"},
         {"strand.length=-1", "--set strand.length=-1: strand.length is -1, but must lie in [0.002, 1.5] m"},
         {"strand.length=nan", "--set strand.length=nan: strand.length is nan, but must be a finite number"},
         {"strand.nodes=2.5", "--set strand.nodes=2.5: strand.nodes must be a whole number, not a number"},
