@@ -367,8 +367,10 @@ static void check(const Region& region, const EntryReader& at)
 static void check(const Parting& parting, const EntryReader& at)
 {
     const toml::node& node = *at.table.get("points");
-    if (parting.points.size() < 2 || parting.points.size() > 256)
-        throw at.wrong(node, "points", fmt::format("must be 2 to 256 points, not {}", parting.points.size()));
+    constexpr size_t most = 256;
+    if (const size_t size = parting.points.size(); size < 2 || size > most)
+        throw at.wrong(size > most ? *node.as_array()->get(most) : node, "points",
+                       fmt::format("must be 2 to {} points, not {}", most, size));
     for (size_t i = 1; i < parting.points.size(); ++i)
         if (parting.points[i] == parting.points[i - 1])
             throw at.wrong(node, "points", fmt::format("says the point {} twice", i));
@@ -434,9 +436,9 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
     const toml::array* array = node.as_array();
     if (!array)
         throw fail("{}: {} must be written as [[{}]] tables", place(file, node.source()), info.group, info.group);
-    if (array->size() > most_entries(info))
-        throw fail("{}: {} {} are more than the {} that coif takes", place(file, node.source()), array->size(),
-                   plural(info), most_entries(info));
+    if (const size_t most = most_entries(info); array->size() > most)
+        throw fail("{}: {} {} are more than the {} that coif takes", place(file, array->get(most)->source()),
+                   array->size(), plural(info), most);
     with_list(style.host, info,
               [&](auto& list)
               {

@@ -82,8 +82,16 @@ void read_variants(Hairstyle& style, const toml::node& node)
     const toml::table* all = node.as_table();
     if (!all)
         throw fail("{}: variants must be written as [variant.NAME] tables", place(file, node.source()));
-    if (all->size() > 64)
-        throw fail("{}: {} variants are more than the 64 that coif takes", place(file, node.source()), all->size());
+    constexpr size_t most = 64;
+    if (all->size() > most)
+    {
+        std::vector<toml::source_region> there; // in the file's order, which is not the table's
+        for (auto&& [name, entry] : *all)
+            there.push_back(entry.source());
+        std::ranges::sort(there, {},
+                          [](const toml::source_region& r) { return std::pair(r.begin.line, r.begin.column); });
+        throw fail("{}: {} variants are more than the {} that coif takes", place(file, there[most]), all->size(), most);
+    }
     for (auto&& [name, entry] : *all)
     {
         const toml::table* groups = entry.as_table();

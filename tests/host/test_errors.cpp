@@ -3,6 +3,7 @@
 #include "sim/simulation.h"
 #include "tests/host/scratch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace coif
@@ -208,11 +209,42 @@ TEST(BrokenStyle, the_deepest_keys_that_are_let_through_crash_nothing)
     EXPECT_EQ(parse_hairstyle(colliders + "]\n", "bob.toml").host.colliders.size(), 256u);
 }
 
-TEST(BrokenStyle, too_many_colliders_are_told)
+TEST(BrokenStyle, too_many_colliders_are_told_at_the_first_of_them)
 {
     const std::string one = "[[collider]]\ncenter = [0, 0, 0]\nradius = 1\n";
     EXPECT_EQ(told(repeated(one, 256)), "no error");
-    EXPECT_EQ(told(repeated(one, 257)), "bob.toml:1:1: 257 colliders are more than the 256 that coif takes");
+    // It is the first that is too many that is in the way.
+    EXPECT_EQ(told(repeated(one, 257)), "bob.toml:769:1: 257 colliders are more than the 256 that coif takes");
+    EXPECT_EQ(told(repeated(one, 300)), "bob.toml:769:1: 300 colliders are more than the 256 that coif takes");
+    EXPECT_EQ(told("collider = [\n" + repeated("{center = [0, 0, 0], radius = 1},\n", 258) + "]\n"),
+              "bob.toml:258:1: 258 colliders are more than the 256 that coif takes");
+}
+
+TEST(BrokenStyle, too_many_of_any_list_are_told_at_the_first_of_them)
+{
+    const std::pair<const char*, std::string> lists[] = {
+        {"regions", "[[region]]\nname = \"a{}\"\n"},
+        {"partings", "[[parting]]\npoints = [[0, 0, 0], [0, 0, 1]]\n"},
+        {"maps", "[[map]]\nof = \"strand.length\"\nvalues = [1]\n"},
+        {"ties", "[[tie]]\nname = \"a\"\n"},
+        {"lights", "[[light]]\ndirection = [0, 1, 0]\n"},
+    };
+    for (const auto& [name, one] : lists)
+    {
+        const size_t most = name == std::string("lights") ? kMostLights : 64,
+                     lines = size_t(std::ranges::count(one, '\n'));
+        std::string text = "[strand]\nlength = 0.2\n";
+        for (size_t i = 0; i < most + 2; ++i)
+            text += fmt::format(fmt::runtime(one), i);
+        EXPECT_EQ(told(text), fmt::format("bob.toml:{}:1: {} {} are more than the {} that coif takes", 3 + most * lines,
+                                          most + 2, name, most));
+    }
+    std::string variants; // whose order in the file is not that of their names
+    for (int i = 0; i < 66; ++i)
+        variants += fmt::format("[variant.v{}]\nstrand.length = 0.2\n", 99 - i);
+    EXPECT_EQ(told(variants), "bob.toml:129:1: 66 variants are more than the 64 that coif takes");
+    EXPECT_EQ(told("[[parting]]\npoints = [\n" + repeated("[0, 0, 0],\n[0, 0, 1],\n", 129) + "]\n"),
+              "bob.toml:259:1: parting.points must be 2 to 256 points, not 258");
 }
 
 TEST(BrokenStyle, a_file_that_is_none_is_told)

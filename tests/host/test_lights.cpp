@@ -91,7 +91,7 @@ TEST(Lights, what_is_wrong_is_told_with_its_place_in_files_and_in_styles)
         {one + "angle = 90\n", ":3:9: light.angle is 90, but must lie in [0, 60] deg"},
         {one + "power = 9\n", ":3:9: a light has no 'power'; it has name, direction, color, irradiance, angle"},
         {"[light]\ndirection = [0, 1, 0]\n", ":1:1: light must be written as [[light]] tables"},
-        {many + one, ":1:1: 17 lights are more than the 16 that coif takes"},
+        {many + one, ":33:1: 17 lights are more than the 16 that coif takes"},
         {"[[light]\n", ":1:9: not valid TOML"},
     };
     const Scratch scratch;
