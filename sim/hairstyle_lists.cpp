@@ -454,7 +454,10 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
                       fields(reader, entry);
                       reader.finish();
                       check(entry, reader);
-                      style.places[fmt::format("{}[{}]", info.group, list.size() - 1)] = place(file, item.source());
+                      const std::string path = fmt::format("{}[{}]", info.group, list.size() - 1);
+                      style.places[path] = place(file, item.source());
+                      if (const toml::node* named = table->get("file"))
+                          style.places[path + ".file"] = place(file, named->source());
                   }
               });
     for (size_t i = 0; i < style.host.regions.size(); ++i)
@@ -472,13 +475,13 @@ void load_beside(Hairstyle& style)
                [&] { rest.shapes = std::make_shared<const StrandShapes>(read_shapes(folder / rest.file)); });
     for (size_t i = 0; i < style.host.regions.size(); ++i)
         if (Region& region = style.host.regions[i]; !region.file.empty())
-            placed(style, fmt::format("region[{}]", i),
+            placed(style, fmt::format("region[{}].file", i),
                    [&] {
                        region.weights = read_map_values(folder / region.file, {0.0f, 1.0f, ""});
                    });
     for (size_t i = 0; i < style.host.maps.size(); ++i)
         if (ScalpMap& map = style.host.maps[i]; !map.file.empty())
-            placed(style, fmt::format("map[{}]", i),
+            placed(style, fmt::format("map[{}].file", i),
                    [&] {
                        map.values = read_map_values(folder / map.file, {-1000.0f, 1000.0f, ""});
                    });

@@ -252,11 +252,13 @@ static float unit_of(const aiScene& scene)
 
 FileMesh load_mesh(const std::filesystem::path& file)
 {
+    check_regular(file);
     const std::string name = shown_file(file);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        throw fail("{}: {}", name, std::filesystem::exists(file, error) ? "is no plain file" : "there is no such file");
-    if (std::filesystem::file_size(file, error) > (size_t(1) << 30))
+    const auto size = std::filesystem::file_size(file, error);
+    if (size == 0 || error) // as what is read to no end in /proc has it too
+        throw fail("{}: is no mesh that coif can read: it is empty", name);
+    if (size > (size_t(1) << 30))
         throw fail("{}: is larger than the 1 GB that coif reads of a mesh", name);
     Assimp::Importer importer;
     // Positions alone are kept and joined, so that normals computed here are smooth whatever the file's corners say.

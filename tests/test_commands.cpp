@@ -371,6 +371,7 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
     EXPECT_EQ(coif("shot '' -o x.png").status, 2) << "a variable of the shell that is not set";
     EXPECT_EQ(coif("--help").status, 0);
     EXPECT_EQ(coif("shot nowhere.toml -o x.png").status, 1);
+    EXPECT_EQ(coif("shot /dev/zero -o x.png").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --size 9000x10").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --samples 0").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --time nan").status, 1);

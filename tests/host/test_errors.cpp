@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sys/stat.h>
+
 namespace coif
 {
 namespace
@@ -250,7 +252,8 @@ TEST(BrokenStyle, too_many_of_any_list_are_told_at_the_first_of_them)
 TEST(BrokenStyle, a_file_that_is_none_is_told)
 {
     const Scratch scratch;
-    EXPECT_EQ(error_of([&] { load_hairstyle(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_hairstyle(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     EXPECT_EQ(error_of([&] { load_hairstyle(scratch / "none.toml"); }),
               (scratch / "none.toml").string() + ": there is no such file");
     const fs::path large = scratch.write("large.toml", "#" + std::string(5 << 20, 'x'));
@@ -258,6 +261,52 @@ TEST(BrokenStyle, a_file_that_is_none_is_told)
               large.string() + ": is larger than the 4194304 bytes that coif reads of such a file");
     const fs::path long_key = scratch.write("key.toml", std::string(3 << 20, 'k') + " = 1\n");
     EXPECT_NE(error_of([&] { load_hairstyle(long_key); }), "no error");
+}
+
+TEST(BrokenStyle, what_never_ends_or_never_begins_is_read_by_none_and_told_where_the_style_names_it)
+{
+    const test::TimeLimit limit(20);
+    const Scratch scratch;
+    ASSERT_EQ(mkfifo((scratch / "pipe").c_str(), 0600), 0);
+    fs::create_directory(scratch / "folder");
+    const std::string pipe = (scratch / "pipe").string(), folder = (scratch / "folder").string();
+    const std::pair<std::string, std::string> files[] = {
+        {pipe, pipe + ": is a pipe, not a regular file; write what it gives into a file and name that"},
+        {folder, folder + ": is a folder, not a regular file; name a file in it"},
+        {"/dev/zero", "/dev/zero: is a device, not a regular file; write what it gives into a file and name that"},
+    };
+    const std::pair<std::string, std::string> keys[] = {
+        {"[scalp]\nmesh = ", ":2:8: "},
+        {"[head]\nmesh = ", ":2:8: "},
+        {"[head]\nspheres = ", ":2:11: "},
+        {"[look]\nlights = ", ":2:10: "},
+        {"[groom]\nimport = ", ":2:10: "},
+        {"[groom]\nrest = ", ":2:8: "},
+        {"[[region]]\nname = 'a'\n[[region]]\nname = 'b'\nfile = ", ":5:8: "},
+        {"[[map]]\nof = 'strand.length'\nfile = ", ":3:8: "},
+    };
+    const std::string bob = (scratch / "bob.toml").string();
+    for (const auto& [file, fault] : files)
+    {
+        for (const auto& [key, place] : keys)
+        {
+            scratch.write("bob.toml", key + "'" + file + "'\n");
+            EXPECT_EQ(error_of([&] { load_assets(load_hairstyle(bob)); }), bob + place + fault);
+        }
+        EXPECT_EQ(error_of([&, f = file] { load_hairstyle(f); }), fault);
+        EXPECT_EQ(error_of([&, f = file] { load_motion(f); }), fault);
+        EXPECT_EQ(error_of([&, f = file] { load_mesh(f); }), fault);
+    }
+    if (const fs::path passes = "/proc/self/pagemap"; fs::is_regular_file(passes)) // terabytes, in no bytes
+    {
+        EXPECT_EQ(error_of([&] { load_hairstyle(passes); }),
+                  passes.string() + ": is larger than the 4194304 bytes that coif reads of such a file");
+        EXPECT_EQ(error_of([&] { load_mesh(passes); }),
+                  passes.string() + ": is no mesh that coif can read: it is empty");
+    }
+    scratch.write("bob.toml", "[[map]]\nof = 'strand.length'\nfile = 'none.map'\n");
+    EXPECT_EQ(error_of([&] { load_hairstyle(bob); }),
+              bob + ":3:8: " + (scratch / "none.map").string() + ": there is no such file");
 }
 
 TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style_names_it)
@@ -272,7 +321,7 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     EXPECT_EQ(loaded(""), "no error");
     EXPECT_EQ(loaded("[interpolation]\nrefine = 5\n").rfind(bob + ":2:10: interpolation.refine: 5 would give more", 0),
               0u);
-    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is no plain file");
+    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is a folder, not a regular file; name a file in it");
     scratch.write("giant.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n");
     EXPECT_NE(loaded("[head]\nmesh = 'giant.obj'\n").find("is further than 1000000 from the origin"),
               std::string::npos);

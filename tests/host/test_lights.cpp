@@ -120,7 +120,8 @@ TEST(Lights, what_is_wrong_is_told_with_its_place_in_files_and_in_styles)
         EXPECT_EQ(told(text), message) << text;
     EXPECT_EQ(load_lights(scratch.write("l.toml", many)).lights.size(), kMostLights);
     EXPECT_EQ(parse_hairstyle(many, "bob.toml").host.lights.size(), kMostLights);
-    EXPECT_EQ(error_of([&] { load_lights(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_lights(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     EXPECT_NE(error_of([&] { load_lights(scratch.write("l.toml", "#" + std::string(5 << 20, 'x'))); })
                   .find("is larger than the 4194304 bytes"),
               std::string::npos);

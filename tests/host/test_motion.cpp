@@ -179,7 +179,8 @@ TEST(Motion, a_name_that_is_none_is_told_with_those_there_are)
     EXPECT_EQ(error_of([] { find_motion("shakee"); }),
               "'shakee' is neither a file nor one of coif's motions: drag, gust, nod, shake, still, teleport, turn");
     const Scratch scratch;
-    EXPECT_EQ(error_of([&] { load_motion(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_motion(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     const fs::path file = scratch.write("mine.toml", "seconds = 7\n");
     EXPECT_EQ(find_motion(file.string()).seconds, 7.0);
 }
