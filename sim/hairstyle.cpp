@@ -59,6 +59,12 @@ static bool read_hex_color(const std::string& text, double out[3])
     return true;
 }
 
+template <typename Float> static std::string never_whole(Float value)
+{
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == text.npos ? text + ".0" : text;
+}
+
 void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
     double values[kMostNumbers] = {};
@@ -72,10 +78,19 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
         values[0] = *node.value<double>();
         break;
     case Kind::INT:
+    {
+        const std::string whole = fmt::format("a whole number in [{}, {}]", info.min, info.max);
+        if (node.is_floating_point())
+            throw fail("{} must be {}, without point or exponent, not {}", info.path(), whole,
+                       never_whole(*node.value<double>()));
         if (!node.is_integer())
-            throw wrong("a whole number");
-        values[0] = double(*node.value<int64_t>());
+            throw wrong(whole.c_str());
+        const int64_t value = *node.value<int64_t>();
+        if (value < int64_t(info.min) || value > int64_t(info.max)) // as a double it may be another
+            throw fail("{} is {}, but must be {}", info.path(), value, whole);
+        values[0] = double(value);
         break;
+    }
     case Kind::VECTOR:
         if (!read_numbers(node, values, 3))
             throw wrong("three numbers like [0.0, 1.0, 0.0]");
@@ -238,11 +253,7 @@ void assign(Hairstyle& style, const std::string& assignment)
     style.places[path] = "--set " + path;
 }
 
-std::string float_text(float value)
-{
-    const std::string text = fmt::format("{}", value);
-    return text.find_first_of(".en") == text.npos ? text + ".0" : text;
-}
+std::string float_text(float value) { return never_whole(value); }
 
 std::string toml_string(const std::string& text)
 {
