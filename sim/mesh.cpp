@@ -13,6 +13,7 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -250,6 +251,16 @@ static float unit_of(const aiScene& scene)
     return said && std::isfinite(centimetres) && centimetres > 0.0f ? 0.01f * centimetres : 1.0f;
 }
 
+// More of it than rounding gives to three points in a line?
+static bool has_area(const Mesh& mesh, const glm::uvec3& triangle)
+{
+    const glm::dvec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
+    const double furthest = std::max({glm::length(a), glm::length(b), glm::length(c)});
+    const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const double across = glm::length(glm::cross(b - a, c - a)); // longest times the height above it
+    return across > 4.0 * double(FLT_EPSILON) * furthest * longest;
+}
+
 FileMesh load_mesh(const std::filesystem::path& file)
 {
     check_regular(file);
@@ -282,6 +293,10 @@ FileMesh load_mesh(const std::filesystem::path& file)
     append(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name.c_str());
     if (mesh.triangles.empty())
         throw fail("{}: has no triangles", name);
+    if (std::ranges::none_of(mesh.triangles, [&](const glm::uvec3& t) { return has_area(mesh, t); }))
+        throw fail("{}: all of its triangles are without area, so that there is nothing to see or to touch; export it "
+                   "with its faces as they are on screen",
+                   name);
     mesh.normals = vertex_normals(mesh, glm::vec3(0.0f));
     return mesh;
 }
