@@ -114,6 +114,8 @@ static void read_line(Motion& motion, const std::string& kind, Line line)
 Motion load_motion(const fs::path& file)
 {
     const toml::table document = parse_toml(read_file(file, 4 << 20), file);
+    if (document.empty())
+        throw fail("{}: holds no motion; for a head at rest say seconds = 2.0", shown_file(file));
     Motion motion;
     motion.name = file.stem().string();
     const Line here{file, document};
