@@ -283,6 +283,15 @@ TEST_F(Commands, save_changes_what_is_asked_and_keeps_the_rest)
     EXPECT_FALSE(fs::exists(folder / "bad.toml"));
 }
 
+TEST_F(Commands, version_is_one_line_that_the_help_begins_with_too)
+{
+    const Result result = coif("--version");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out, "coif " COIF_VERSION "\n");
+    EXPECT_EQ(coif("--help").out.rfind("coif " COIF_VERSION ": ", 0), 0u) << coif("--help").out;
+}
+
 TEST_F(Commands, keys_lists_every_parameter)
 {
     const Result result = coif("keys");
