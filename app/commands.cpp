@@ -225,8 +225,10 @@ static void check_output(std::vector<std::string> words, const std::string& styl
 // With `only_look` nothing is done: throws Error for what cannot be, where otherwise it is told and 2 is returned.
 static int command(std::vector<std::string> words, bool only_look)
 {
-    CLI::App app("coif: write a hairstyle, see it live, shape it, take its picture.", "coif");
+    const std::string version = "coif " COIF_VERSION;
+    CLI::App app(version + ": write a hairstyle, see it live, shape it, take its picture.", "coif");
     app.set_help_all_flag("--help-all", "Help of every command");
+    app.set_version_flag("--version", version);
     app.require_subcommand(0, 1);
     Options options;
     ShotOptions shot;
@@ -461,7 +463,8 @@ static int command(std::vector<std::string> words, bool only_look)
     const std::shared_ptr<Batch> batch = add_batch(app);
 
     // `coif STYLE` opens the editor too: a first word that is no command and no option is a style.
-    bool is_command = !words.empty() && words[0].rfind("-h", 0) != 0 && words[0].rfind("--help", 0) != 0;
+    bool is_command =
+        !words.empty() && !words[0].starts_with("-h") && !words[0].starts_with("--help") && words[0] != "--version";
     for (const CLI::App* command : app.get_subcommands({}))
         is_command = is_command && words[0] != command->get_name();
     if (words.empty() || is_command)
@@ -476,7 +479,7 @@ static int command(std::vector<std::string> words, bool only_look)
     catch (const CLI::Success& e)
     {
         if (only_look)
-            throw Error("asks for help, which is no task");
+            throw Error("asks for help or the version, which is no task");
         return app.exit(e);
     }
     catch (const CLI::ParseError& e)

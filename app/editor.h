@@ -143,7 +143,8 @@ class Editor
     using Intent = std::variant<std::monostate, Close, std::filesystem::path, Recover>; // waits for unsaved changes
 
     static constexpr float kMessageRoom = 44.0f; // pixels at the bottom of the view that windows leave to the message
-    static constexpr int kRedraw = 3; // frames after an event: a window of the panel needs two to find its size
+    static constexpr float kBacking = 0.8f; // how opaque the dark under figures is: they are read over white hair too
+    static constexpr int kRedraw = 3;       // frames after an event: a window of the panel needs two to find its size
 
     void measure_quality();
     void handle(const SDL_Event& event);

@@ -177,7 +177,7 @@ void Editor::draw_beside()
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const ImVec2 at(half * (b ? 2.0f : 1.0f) - size.x - 12.0f, 10.0f);
         draw.AddRectFilled(ImVec2(at.x - 6.0f, at.y - 3.0f), ImVec2(at.x + size.x + 6.0f, at.y + size.y + 3.0f),
-                           IM_COL32(0, 0, 0, 110), 3.0f);
+                           ImGui::GetColorU32(ImVec4(0.0f, 0.0f, 0.0f, kBacking)), 3.0f);
         draw.AddText(at, IM_COL32(235, 235, 235, 255), text.c_str());
     }
 }
@@ -188,7 +188,7 @@ void Editor::draw_legend()
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoSavedSettings;
     ImGui::SetNextWindowPos(ImVec2(float(view_width_) - 8.0f, float(view_height_) - 8.0f), 0, ImVec2(1.0f, 1.0f));
-    ImGui::SetNextWindowBgAlpha(0.5f);
+    ImGui::SetNextWindowBgAlpha(kBacking);
     ImGui::Begin("legend", nullptr, plain);
     ImGui::TextUnformatted(legend_.title.c_str());
     const float width = 240.0f, height = 12.0f;

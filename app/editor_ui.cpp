@@ -99,7 +99,7 @@ void Editor::draw_history()
     const ImVec2 low(float(view_width_) - 8.0f, 0.63f * float(view_height_));
     ImGui::SetNextWindowPos(low, ImGuiCond_FirstUseEver, ImVec2(1.0f, 0.0f));
     ImGui::SetNextWindowSize(ImVec2(280.0f, 0.26f * float(view_height_)), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(0.8f);
+    ImGui::SetNextWindowBgAlpha(kBacking);
     if (ImGui::Begin("what was done", &show_history_))
     {
         keep_in_view(float(view_width_), float(view_height_));
@@ -240,7 +240,7 @@ void Editor::draw_quality(float top)
 {
     const Quality& quality = simulation_->quality();
     ImGui::SetNextWindowPos(ImVec2(8.0f, top));
-    ImGui::SetNextWindowBgAlpha(0.35f);
+    ImGui::SetNextWindowBgAlpha(kBacking);
     ImGui::Begin("quality", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove);
@@ -267,7 +267,8 @@ void Editor::draw_status()
     const ImGuiWindowFlags plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
     ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f));
-    ImGui::SetNextWindowBgAlpha(0.35f);
+    ImGui::SetNextWindowBgAlpha(kBacking);
+    ImGui::PushStyleColor(ImGuiCol_TextDisabled, ImVec4(0.75f, 0.75f, 0.75f, 1.0f)); // what is usual is too dark here
     ImGui::Begin("figures", nullptr, plain);
     ImGui::Text("%.1f ms a frame, %.0f a second%s", frame_ms_, 1e3 / std::max(frame_ms_, 1e-3),
                 paused_ ? ", paused" : "");
@@ -319,6 +320,7 @@ void Editor::draw_status()
         ImGui::TextDisabled("still: the mean of %d pictures", refined_);
     const float below = ImGui::GetWindowHeight() + 12.0f;
     ImGui::End();
+    ImGui::PopStyleColor();
     if (!simulation_->quality().said.empty())
         draw_quality(below);
 

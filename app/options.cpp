@@ -2,6 +2,7 @@
 
 #include "app/randomise.h"
 #include "sim/error.h"
+#include "sim/shown.h"
 #include "sim/source.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ fs::path find_style(const std::string& name_or_path)
         if (name_or_path == names.back())
             return file;
     }
-    throw fail("'{}' is neither a file nor one of coif's presets: {}", name_or_path, fmt::join(names, ", "));
+    throw fail("'{}' is neither a file nor one of coif's presets: {}", shown(name_or_path), fmt::join(names, ", "));
 }
 
 Hairstyle load_style(const Options& options)

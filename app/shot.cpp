@@ -4,11 +4,14 @@
 #include "app/lens.h"
 #include "app/progress.h"
 #include "sim/error.h"
+#include "sim/shown.h"
 #include "sim/source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 namespace coif
 {
@@ -37,12 +40,24 @@ static Camera parse_camera(const std::string& text, Camera camera)
             return camera;
         }
     double yaw = 0, pitch = 0, distance = camera.distance;
-    char end = 0;
-    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &yaw, &pitch, &distance, &end);
-    if ((found != 2 && found != 3) || !(std::abs(yaw) <= 360) || !(std::abs(pitch) <= 89) ||
-        !(distance >= 0.02 && distance <= 100))
-        throw fail("--camera {}: expected front, left, right, back, top, or yaw,pitch[,distance] in degrees and metres",
-                   text);
+    int two = 0, three = 0; // characters that so many numbers take
+    std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &yaw, &pitch, &two, &distance, &three);
+    if (text.empty() || size_t(std::max(two, three)) != text.size())
+        throw fail("--camera {}: expected front, left, right, back, top, or yaw,pitch[,distance] in degrees and "
+                   "metres: as 25,5 or 25,5,0.95",
+                   shown(text));
+    for (const auto& [key, number] :
+         {std::pair("camera.yaw", yaw), {"camera.pitch", pitch}, {"camera.distance", distance}})
+        try
+        {
+            HairParams of_a_style; // whose bounds these are too
+            const double numbers[kMostNumbers] = {number};
+            set_numbers(of_a_style, *find_param(key), numbers);
+        }
+        catch (const Error& e)
+        {
+            throw fail("--camera {}: {}", shown(text), e.what());
+        }
     camera.yaw = yaw * degree;
     camera.pitch = pitch * degree;
     camera.distance = distance;

@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
+#include "sim/shown.h"
 #include "sim/toml_edit.h"
 #include "sim/toml_values.h"
 
@@ -58,6 +59,12 @@ static bool read_hex_color(const std::string& text, double out[3])
     return true;
 }
 
+template <typename Float> static std::string never_whole(Float value)
+{
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == text.npos ? text + ".0" : text;
+}
+
 void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
 {
     double values[kMostNumbers] = {};
@@ -71,10 +78,19 @@ void read_value(Hairstyle& style, const ParamInfo& info, const toml::node& node)
         values[0] = *node.value<double>();
         break;
     case Kind::INT:
+    {
+        const std::string whole = fmt::format("a whole number in [{}, {}]", info.min, info.max);
+        if (node.is_floating_point())
+            throw fail("{} must be {}, without point or exponent, not {}", info.path(), whole,
+                       never_whole(*node.value<double>()));
         if (!node.is_integer())
-            throw wrong("a whole number");
-        values[0] = double(*node.value<int64_t>());
+            throw wrong(whole.c_str());
+        const int64_t value = *node.value<int64_t>();
+        if (value < int64_t(info.min) || value > int64_t(info.max)) // as a double it may be another
+            throw fail("{} is {}, but must be {}", info.path(), value, whole);
+        values[0] = double(value);
         break;
+    }
     case Kind::VECTOR:
         if (!read_numbers(node, values, 3))
             throw wrong("three numbers like [0.0, 1.0, 0.0]");
@@ -133,7 +149,7 @@ try
 }
 catch (const toml::parse_error& e)
 {
-    throw fail("{}: not valid TOML: {}", place(file, e.source()), e.description());
+    throw fail("{}: not valid TOML: {}", place(file, e.source()), shown(e.description(), 200));
 }
 
 Hairstyle parse_hairstyle(const std::string& text, const fs::path& file, bool beside)
@@ -157,14 +173,14 @@ Hairstyle parse_hairstyle(const std::string& text, const fs::path& file, bool be
         const toml::table* table = node.as_table();
         if (!table)
             throw fail("{}: expected a [group], found the key '{}'; did you mean {}?", place(file, node.source()),
-                       std::string_view(group.str()), nearest_param(group.str()));
+                       shown(group.str()), nearest_param(group.str()));
         for (auto&& [key, value] : *table)
         {
             const std::string path = fmt::format("{}.{}", std::string_view(group.str()), std::string_view(key.str()));
             const std::string at = place(file, value.source());
             const ParamInfo* info = find_param(path);
             if (!info)
-                throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), path,
+                throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), shown(path),
                            nearest_param(path));
             try
             {
@@ -193,7 +209,7 @@ std::vector<Collider> load_colliders(const fs::path& file)
     {
         if (key != "collider")
             throw fail("{}: expected [[collider]] tables only, found '{}'", place(file, key.source()),
-                       std::string_view(key.str()));
+                       shown(key.str()));
         read_list(holder, *find_param("collider"), node);
     }
     return holder.host.colliders;
@@ -203,11 +219,12 @@ void assign(Hairstyle& style, const std::string& assignment)
 {
     const size_t equals = assignment.find('=');
     if (equals == assignment.npos)
-        throw fail("--set {}: expected group.key=value", assignment);
+        throw fail("--set {}: expected group.key=value", shown(assignment));
     const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const ParamInfo* info = find_param(path);
     if (!info)
-        throw fail("--set {}: no parameter is called '{}'; the nearest is {}", assignment, path, nearest_param(path));
+        throw fail("--set {}: no parameter is called '{}'; the nearest is {}", shown(assignment), shown(path),
+                   nearest_param(path));
     toml::table document;
     const bool bare = text.empty() || text[0] == '#' || info->kind == Kind::CHOICE || info->kind == Kind::TEXT;
     try
@@ -219,7 +236,7 @@ void assign(Hairstyle& style, const std::string& assignment)
             refuse_deep_keys(text, "its value");
             document = toml::parse("value = " + text);
             if (document.size() != 1)
-                throw fail("'{}' is more than one TOML value", text);
+                throw fail("'{}' is more than one TOML value", shown(text));
         }
         read_value(style, *info, *document.get("value"));
         if (info->kind == Kind::SHAPE)
@@ -227,20 +244,16 @@ void assign(Hairstyle& style, const std::string& assignment)
     }
     catch (const toml::parse_error&)
     {
-        throw fail("--set {}: '{}' is no TOML value", assignment, text);
+        throw fail("--set {}: '{}' is no TOML value", shown(assignment), shown(text));
     }
     catch (const Error& e)
     {
-        throw fail("--set {}: {}", assignment, e.what());
+        throw fail("--set {}: {}", shown(assignment), e.what());
     }
     style.places[path] = "--set " + path;
 }
 
-std::string float_text(float value)
-{
-    const std::string text = fmt::format("{}", value);
-    return text.find_first_of(".en") == text.npos ? text + ".0" : text;
-}
+std::string float_text(float value) { return never_whole(value); }
 
 std::string toml_string(const std::string& text)
 {

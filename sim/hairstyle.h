@@ -84,7 +84,10 @@ void write_file(const std::filesystem::path& file, const std::string& bytes);
 // Makes a folder and those above it, where there are none. Throws Error when it cannot.
 void make_folder(const std::filesystem::path& folder);
 
-// Reads a whole file. Throws Error for what is missing, no plain file, or larger than `limit` bytes.
+// Throws Error for what is missing, and for folders, pipes and devices, which are read to no end or not at all.
+void check_regular(const std::filesystem::path& file);
+
+// Reads a whole file. Throws Error as check_regular(), and for one that is larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& file, size_t limit = size_t(1) << 30);
 
 // Throws Error for TOML with keys of thousands of dots: toml++ 3.3 makes a table in a table of each, and runs out of

@@ -1,5 +1,6 @@
 #include "sim/hairstyle_lists.h"
 
+#include "sim/shown.h"
 #include "sim/toml_values.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ Setting read_setting(const fs::path& file, const std::string& path, const toml::
 {
     const ParamInfo* info = find_param(path);
     if (!info)
-        throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), path,
+        throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, key.source()), shown(path),
                    nearest_param(path));
     Hairstyle read;
     try
@@ -247,10 +248,10 @@ struct EntryReader
                 for (auto&& [inner, node] : *group)
                     if (const std::string path = name + "." + std::string(inner.str()); !find_param(path))
                         throw fail("{}: no parameter is called '{}'; the nearest is {}", place(file, inner.source()),
-                                   path, nearest_param(path));
+                                   shown(path), nearest_param(path));
                 continue;
             }
-            throw fail("{}: a {} has no '{}'; it has {}{}", place(file, value.source()), list, name,
+            throw fail("{}: a {} has no '{}'; it has {}{}", place(file, value.source()), list, shown(name),
                        fmt::join(known, ", "), takes_settings ? ", and parameters as strand.length" : "");
         }
         for (const std::string& name : needed)
@@ -358,7 +359,7 @@ static void check(const Region& region, const EntryReader& at)
     for (const std::string& area : region.where)
         if (std::find(region_areas().begin(), region_areas().end(), area) == region_areas().end())
             throw at.wrong(*at.table.get("where"), "where",
-                           fmt::format("is '{}', but must be of {}", area, fmt::join(region_areas(), ", ")));
+                           fmt::format("is '{}', but must be of {}", shown(area), fmt::join(region_areas(), ", ")));
     if (!region.weights.empty() && !region.file.empty())
         throw at.wrong(*at.table.get("weights"), "weights", "must be left out where a file holds them");
 }
@@ -366,8 +367,10 @@ static void check(const Region& region, const EntryReader& at)
 static void check(const Parting& parting, const EntryReader& at)
 {
     const toml::node& node = *at.table.get("points");
-    if (parting.points.size() < 2 || parting.points.size() > 256)
-        throw at.wrong(node, "points", fmt::format("must be 2 to 256 points, not {}", parting.points.size()));
+    constexpr size_t most = 256;
+    if (const size_t size = parting.points.size(); size < 2 || size > most)
+        throw at.wrong(size > most ? *node.as_array()->get(most) : node, "points",
+                       fmt::format("must be 2 to {} points, not {}", most, size));
     for (size_t i = 1; i < parting.points.size(); ++i)
         if (parting.points[i] == parting.points[i - 1])
             throw at.wrong(node, "points", fmt::format("says the point {} twice", i));
@@ -384,9 +387,9 @@ static void check(ScalpMap& map, const EntryReader& at)
     const ParamInfo* info = find_param(map.of);
     const toml::node& of = *at.table.get("of");
     if (!info)
-        throw at.wrong(
-            of, "of",
-            fmt::format("is '{}', but no parameter is called that; the nearest is {}", map.of, nearest_param(map.of)));
+        throw at.wrong(of, "of",
+                       fmt::format("is '{}', but no parameter is called that; the nearest is {}", shown(map.of),
+                                   nearest_param(map.of)));
     if (info->on_host() || info->scope != Scope::STRAND)
         throw at.wrong(of, "of", fmt::format("is {}, which is the same for the whole head", map.of));
     const bool color = info->kind == Kind::COLOR;
@@ -433,9 +436,9 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
     const toml::array* array = node.as_array();
     if (!array)
         throw fail("{}: {} must be written as [[{}]] tables", place(file, node.source()), info.group, info.group);
-    if (array->size() > most_entries(info))
-        throw fail("{}: {} {} are more than the {} that coif takes", place(file, node.source()), array->size(),
-                   plural(info), most_entries(info));
+    if (const size_t most = most_entries(info); array->size() > most)
+        throw fail("{}: {} {} are more than the {} that coif takes", place(file, array->get(most)->source()),
+                   array->size(), plural(info), most);
     with_list(style.host, info,
               [&](auto& list)
               {
@@ -451,14 +454,17 @@ void read_list(Hairstyle& style, const ParamInfo& info, const toml::node& node)
                       fields(reader, entry);
                       reader.finish();
                       check(entry, reader);
-                      style.places[fmt::format("{}[{}]", info.group, list.size() - 1)] = place(file, item.source());
+                      const std::string path = fmt::format("{}[{}]", info.group, list.size() - 1);
+                      style.places[path] = place(file, item.source());
+                      if (const toml::node* named = table->get("file"))
+                          style.places[path + ".file"] = place(file, named->source());
                   }
               });
     for (size_t i = 0; i < style.host.regions.size(); ++i)
         for (size_t j = 0; j < i; ++j)
             if (style.host.regions[i].name == style.host.regions[j].name)
                 throw fail("{}: two regions are called '{}'", style.places[fmt::format("region[{}]", i)],
-                           style.host.regions[i].name);
+                           shown(style.host.regions[i].name));
 }
 
 void load_beside(Hairstyle& style)
@@ -469,13 +475,13 @@ void load_beside(Hairstyle& style)
                [&] { rest.shapes = std::make_shared<const StrandShapes>(read_shapes(folder / rest.file)); });
     for (size_t i = 0; i < style.host.regions.size(); ++i)
         if (Region& region = style.host.regions[i]; !region.file.empty())
-            placed(style, fmt::format("region[{}]", i),
+            placed(style, fmt::format("region[{}].file", i),
                    [&] {
                        region.weights = read_map_values(folder / region.file, {0.0f, 1.0f, ""});
                    });
     for (size_t i = 0; i < style.host.maps.size(); ++i)
         if (ScalpMap& map = style.host.maps[i]; !map.file.empty())
-            placed(style, fmt::format("map[{}]", i),
+            placed(style, fmt::format("map[{}].file", i),
                    [&] {
                        map.values = read_map_values(folder / map.file, {-1000.0f, 1000.0f, ""});
                    });
@@ -496,7 +502,7 @@ std::vector<float> read_map_values(const fs::path& file, Limits bounds)
         const auto [next, error] = std::from_chars(at, end, value);
         if (error != std::errc() || !(value >= bounds.min && value <= bounds.max) ||
             (next < end && !strchr(" \t\r\n", *next)))
-            throw fail("{}:{}: must hold numbers from {} to {} only", file.string(), line, bounds.min, bounds.max);
+            throw fail("{}:{}: must hold numbers from {} to {} only", shown_file(file), line, bounds.min, bounds.max);
         values.push_back(value);
         at = next;
     }

@@ -1,11 +1,12 @@
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
+#include "sim/shown.h"
 #include "sim/source.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <fcntl.h>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <unistd.h>
 
@@ -14,19 +15,39 @@ namespace coif
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& file, size_t limit)
+void check_regular(const fs::path& file)
 {
     std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        throw fail("{}: {}", file.string(), fs::exists(file, error) ? "is no plain file" : "there is no such file");
-    if (fs::file_size(file, error) > limit || error)
-        throw fail("{}: is larger than the {} bytes that coif reads of such a file", file.string(), limit);
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in)
-        throw fail("{}: cannot be read", file.string());
-    return std::move(text).str();
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status))
+        throw fail("{}: there is no such file", shown_file(file));
+    if (fs::is_directory(status))
+        throw fail("{}: is a folder, not a regular file; name a file in it", shown_file(file));
+    if (!fs::is_regular_file(status))
+        throw fail("{}: is a {}, not a regular file; write what it gives into a file and name that", shown_file(file),
+                   fs::is_fifo(status)     ? "pipe"
+                   : fs::is_socket(status) ? "socket"
+                                           : "device");
+}
+
+std::string read_file(const fs::path& file, size_t limit)
+{
+    check_regular(file);
+    // Not waiting and not beyond the limit: what never ends may pass for regular, as some of /proc does.
+    std::string text;
+    char piece[1 << 16];
+    ssize_t got = -1;
+    if (const int from = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); from >= 0)
+    {
+        while ((got = read(from, piece, sizeof piece)) > 0 && text.size() <= limit)
+            text.append(piece, size_t(got));
+        close(from);
+    }
+    if (got < 0)
+        throw fail("{}: cannot be read", shown_file(file));
+    if (text.size() > limit)
+        throw fail("{}: is larger than the {} bytes that coif reads of such a file", shown_file(file), limit);
+    return text;
 }
 
 void make_folder(const fs::path& folder)
@@ -95,7 +116,7 @@ void refuse_deep_keys(const std::string& text, const fs::path& file)
         in_number = digit || c == '.';
     }
     if (surplus > 4000)
-        throw fail("{}: holds keys with more dots than coif takes", file.string());
+        throw fail("{}: holds keys with more dots than coif takes", shown_file(file));
 }
 
 fs::path resolve_path(const Hairstyle& style, const std::string& key, const std::string& written,
@@ -110,7 +131,7 @@ fs::path resolve_path(const Hairstyle& style, const std::string& key, const std:
         return data;
     const auto at = style.places.find(key);
     throw fail("{}{}: no file '{}', neither as {} nor as {}", at == style.places.end() ? "" : at->second + ": ", key,
-               written, beside.string(), data.string());
+               shown(written), shown_file(beside), shown_file(data));
 }
 
 fs::path named_file(const Hairstyle& style, const std::string& key, const std::string& written)

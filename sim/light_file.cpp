@@ -1,6 +1,7 @@
 #include "sim/light_file.h"
 
 #include "sim/hairstyle_lists.h"
+#include "sim/shown.h"
 #include "sim/source.h"
 #include "sim/toml_values.h"
 
@@ -24,10 +25,10 @@ static LightRig parse_lights(const std::string& text, const fs::path& file)
             rig.sky = read_sky(file, node);
         else
             throw fail("{}: expected [[light]] tables and a [sky] only, found '{}'", place(file, key.source()),
-                       std::string_view(key.str()));
+                       shown(key.str()));
     if (document.empty())
         throw fail("{}: holds neither a [[light]] nor a [sky]; for darkness say radiance = 0 of a [sky]",
-                   file.string());
+                   shown_file(file));
     rig.lights = holder.host.lights;
     return rig;
 }
@@ -56,7 +57,7 @@ void save_lights(const LightRig& rig, const fs::path& target)
         catch (const Error& e)
         {
             throw fail("{}: is there and holds something else than lights, so they need another name: {}",
-                       target.string(), e.what());
+                       shown_file(target), e.what());
         }
     if (rig.sky != before.sky || rig.lights.empty())
     {

@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/shown.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -12,6 +13,7 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -142,7 +144,7 @@ static void fit_sphere(Scalp& scalp)
 
 Scalp load_scalp(const std::filesystem::path& file)
 {
-    const std::string name = file.string();
+    const std::string name = shown_file(file);
     tinyobj::ObjReaderConfig config;
     config.triangulate = false;
     tinyobj::ObjReader reader;
@@ -219,7 +221,7 @@ static void check_ply(const std::filesystem::path& file)
     std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
     const size_t end = head.find("\nend_header");
     if (head.starts_with("ply") && (end == head.npos || head.find_first_of(" \r\n", end + 1) != end + 11))
-        throw fail("{}: is no mesh that coif can read: its header has no end_header", file.string());
+        throw fail("{}: is no mesh that coif can read: its header has no end_header", shown_file(file));
 }
 
 // Nor does it look whether a file's corners are there before it reads them, and it aborts at a face without any.
@@ -249,13 +251,25 @@ static float unit_of(const aiScene& scene)
     return said && std::isfinite(centimetres) && centimetres > 0.0f ? 0.01f * centimetres : 1.0f;
 }
 
+// More of it than rounding gives to three points in a line?
+static bool has_area(const Mesh& mesh, const glm::uvec3& triangle)
+{
+    const glm::dvec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
+    const double furthest = std::max({glm::length(a), glm::length(b), glm::length(c)});
+    const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const double across = glm::length(glm::cross(b - a, c - a)); // longest times the height above it
+    return across > 4.0 * double(FLT_EPSILON) * furthest * longest;
+}
+
 FileMesh load_mesh(const std::filesystem::path& file)
 {
-    const std::string name = file.string();
+    check_regular(file);
+    const std::string name = shown_file(file);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        throw fail("{}: {}", name, std::filesystem::exists(file, error) ? "is no plain file" : "there is no such file");
-    if (std::filesystem::file_size(file, error) > (size_t(1) << 30))
+    const auto size = std::filesystem::file_size(file, error);
+    if (size == 0 || error) // as what is read to no end in /proc has it too
+        throw fail("{}: is no mesh that coif can read: it is empty", name);
+    if (size > (size_t(1) << 30))
         throw fail("{}: is larger than the 1 GB that coif reads of a mesh", name);
     Assimp::Importer importer;
     // Positions alone are kept and joined, so that normals computed here are smooth whatever the file's corners say.
@@ -265,7 +279,7 @@ FileMesh load_mesh(const std::filesystem::path& file)
                                                             aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                             aiComponent_CAMERAS | aiComponent_MATERIALS);
     check_ply(file);
-    const aiScene* scene = importer.ReadFile(name, 0);
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
     if (scene)
     {
         check_corners(*scene, name);
@@ -279,6 +293,10 @@ FileMesh load_mesh(const std::filesystem::path& file)
     append(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name.c_str());
     if (mesh.triangles.empty())
         throw fail("{}: has no triangles", name);
+    if (std::ranges::none_of(mesh.triangles, [&](const glm::uvec3& t) { return has_area(mesh, t); }))
+        throw fail("{}: all of its triangles are without area, so that there is nothing to see or to touch; export it "
+                   "with its faces as they are on screen",
+                   name);
     mesh.normals = vertex_normals(mesh, glm::vec3(0.0f));
     return mesh;
 }

@@ -2,9 +2,9 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/shown.h"
 #include "sim/source.h"
-
-#include <toml++/toml.h>
+#include "sim/toml_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,7 @@ struct Line
     const toml::table& table;
     std::vector<std::string> asked = {};
 
-    std::string place(const toml::node& node) const
-    {
-        return fmt::format("{}:{}:{}", file.string(), node.source().begin.line, node.source().begin.column);
-    }
+    std::string place(const toml::node& node) const { return coif::place(file, node.source()); }
 
     double number(const char* key, double otherwise)
     {
@@ -64,7 +61,7 @@ struct Line
     {
         for (auto&& [key, value] : table)
             if (std::find(asked.begin(), asked.end(), key.str()) == asked.end())
-                throw fail("{}: '{}' is not known here; known are {}", place(value), std::string_view(key.str()),
+                throw fail("{}: '{}' is not known here; known are {}", place(value), shown(key.str()),
                            fmt::join(asked, ", "));
     }
 };
@@ -115,16 +112,15 @@ static void read_line(Motion& motion, const std::string& kind, Line line)
 }
 
 Motion load_motion(const fs::path& file)
-try
 {
-    const std::string text = read_file(file, 4 << 20);
-    refuse_deep_keys(text, file);
-    const toml::table document = toml::parse(text, file.string());
+    const toml::table document = parse_toml(read_file(file, 4 << 20), file);
+    if (document.empty())
+        throw fail("{}: holds no motion; for a head at rest say seconds = 2.0", shown_file(file));
     Motion motion;
     motion.name = file.stem().string();
+    const Line here{file, document};
     for (auto&& [key, node] : document)
     {
-        const Line here{file, document};
         const std::string kind(key.str());
         if (kind == "seconds")
         {
@@ -135,7 +131,7 @@ try
         }
         if (kind != "oscillation" && kind != "ramp" && kind != "step" && kind != "pose")
             throw fail("{}: expected seconds, [[oscillation]], [[ramp]], [[step]] or [[pose]], found '{}'",
-                       here.place(node), kind);
+                       here.place(node), shown(kind));
         const toml::array* list = node.as_array();
         if (!list || !list->is_array_of_tables())
             throw fail("{}: '{}' must be written as [[{}]]", here.place(node), kind, kind);
@@ -143,11 +139,6 @@ try
             read_line(motion, kind, Line{file, *entry.as_table()});
     }
     return motion;
-}
-catch (const toml::parse_error& e)
-{
-    throw fail("{}:{}:{}: not valid TOML: {}", file.string(), e.source().begin.line, e.source().begin.column,
-               e.description());
 }
 
 static fs::path motion_folder() { return data_folder() / "assets" / "motions"; }
@@ -178,7 +169,7 @@ Motion find_motion(const std::string& name_or_path)
     std::error_code error;
     if (fs::exists(name_or_path, error))
         return load_motion(name_or_path);
-    throw fail("'{}' is neither a file nor one of coif's motions: {}", name_or_path, fmt::join(names, ", "));
+    throw fail("'{}' is neither a file nor one of coif's motions: {}", shown(name_or_path), fmt::join(names, ", "));
 }
 
 static double smoothstep(double t)

@@ -1,6 +1,7 @@
 #include "sim/shaping.h"
 
 #include "sim/error.h"
+#include "sim/shown.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -260,28 +261,28 @@ void check_entry(const HostParams& host, const ParamInfo& info, size_t index, co
         for (const std::string& name : host.ties[index].regions)
             if (std::none_of(host.regions.begin(), host.regions.end(), [&](const Region& r) { return r.name == name; }))
                 throw fail("the tie '{}' gathers the hair of the region '{}', but no region is called that",
-                           host.ties[index].name, name);
+                           shown(host.ties[index].name), shown(name));
     }
     else if (info.group == std::string_view("region"))
     {
         const Region& region = host.regions[index];
         if (!region.weights.empty() && region.weights.size() != scalp.positions.size())
-            throw fail("the region '{}' has {} weights, but the scalp {} vertices", region.name, region.weights.size(),
-                       scalp.positions.size());
+            throw fail("the region '{}' has {} weights, but the scalp {} vertices", shown(region.name),
+                       region.weights.size(), scalp.positions.size());
         if (!region.group.empty() && !scalp.groups.contains(region.group))
         {
             std::string names;
             for (const auto& [name, vertices] : scalp.groups)
-                names += (names.empty() ? "" : ", ") + name;
-            throw fail("the region '{}' names the group '{}', but the scalp's are: {}", region.name, region.group,
-                       names.empty() ? "none" : names);
+                names += (names.empty() ? "" : ", ") + shown(name);
+            throw fail("the region '{}' names the group '{}', but the scalp's are: {}", shown(region.name),
+                       shown(region.group), names.empty() ? "none" : names);
         }
         const HairParams params;
         const Shaping shaping = shape_over(params, host, scalp, scalp);
         for (size_t v = 0; v < scalp.positions.size(); ++v)
             if (region_weight(shaping, index, at_vertex(scalp, v)) > 0.0f)
                 return;
-        throw fail("the region '{}' selects none of the scalp's vertices", region.name);
+        throw fail("the region '{}' selects none of the scalp's vertices", shown(region.name));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "sim/rest_shape.h"
 #include "sim/scatter.h"
 #include "sim/shaping.h"
+#include "sim/shown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +159,7 @@ std::string doubtful_ties(const Hairstyle& style, const Groom& groom)
         if (groom.short_of_ring[i] > 0)
             said +=
                 fmt::format("{}tie '{}': {} simulated strands are too short to come through its ring and hang loose",
-                            said.empty() ? "" : "; ", style.host.ties[i].name, groom.short_of_ring[i]);
+                            said.empty() ? "" : "; ", shown(style.host.ties[i].name), groom.short_of_ring[i]);
     return said;
 }
 

@@ -3,6 +3,7 @@
 #include "sim/error.h"
 #include "sim/groom.h"
 #include "sim/hairstyle.h"
+#include "sim/shown.h"
 
 #include <glm/geometric.hpp>
 
@@ -15,7 +16,7 @@ namespace coif
 
 StrandShapes read_shapes(const std::filesystem::path& file)
 {
-    return parse_shapes(read_file(file, 256 << 20), file.string());
+    return parse_shapes(read_file(file, 256 << 20), shown_file(file));
 }
 
 StrandShapes parse_shapes(const std::string& text, const std::string& name)

@@ -3,6 +3,7 @@
 #include "sim/error.h"
 #include "sim/scatter.h"
 #include "sim/shaping.h"
+#include "sim/shown.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -102,9 +103,10 @@ static Ring ring_of(const Tie& tie, const Groom& groom, const HairParams& params
 {
     const auto number = [](vec3 v) { return std::isfinite(v.x + v.y + v.z); };
     if (!number(tie.at) || !number(tie.axis) || !(glm::length(tie.axis) > 1e-6f))
-        throw fail("tie '{}' has no direction: its axis must not be zero", tie.name);
+        throw fail("tie '{}' has no direction: its axis must not be zero", shown(tie.name));
     if (!(tie.radius >= 0.002f && tie.radius <= 0.2f))
-        throw fail("tie '{}' has a ring of {} m radius, but it must lie in [0.002, 0.2] m", tie.name, tie.radius);
+        throw fail("tie '{}' has a ring of {} m radius, but it must lie in [0.002, 0.2] m", shown(tie.name),
+                   tie.radius);
     Ring ring;
     ring.center = tie.at * params.head_scale;
     ring.axis = glm::normalize(tie.axis);
@@ -115,7 +117,7 @@ static Ring ring_of(const Tie& tie, const Groom& groom, const HairParams& params
         const vec3 out = ring_place(ground, ring.center, ring.radius).at / params.head_scale;
         throw fail("tie '{}' has its ring {:.1f} mm inside the head: its place must be outside, as [{:.3f}, {:.3f}, "
                    "{:.3f}] is",
-                   tie.name, double(-height) * 1000.0, out.x, out.y, out.z);
+                   shown(tie.name), double(-height) * 1000.0, out.x, out.y, out.z);
     }
     ring.pole = unit_or(ring.center - groom.center, {0.0f, 1.0f, 0.0f});
     ring.from_pole = turning(ring.pole, ring.axis);
@@ -551,7 +553,7 @@ void check_tie(const Groom& groom, const Shaping& shaping, size_t tie, const Tie
     const Tie& own = shaping.host.ties[tie];
     ring_of(own, groom, shaping.params, ground);
     if (std::find(roots.guides.begin(), roots.guides.end(), int(tie)) == roots.guides.end())
-        throw fail("tie '{}' gathers no hair: no root belongs to it", own.name);
+        throw fail("tie '{}' gathers no hair: no root belongs to it", shown(own.name));
 }
 
 void tie_hair(Groom& groom, const Shaping& shaping, const TieRoots& roots, const TieGround& ground)

@@ -1,6 +1,7 @@
 // Reading and writing single TOML values, with the place in the file for what is wrong.
 #pragma once
 #include "sim/error.h"
+#include "sim/shown.h"
 
 #include <filesystem>
 #include <string>
@@ -12,7 +13,7 @@ namespace coif
 // "bob.toml:12:9"
 inline std::string place(const std::filesystem::path& file, const toml::source_region& region)
 {
-    return fmt::format("{}:{}:{}", file.string(), region.begin.line, region.begin.column);
+    return fmt::format("{}:{}:{}", shown_file(file), region.begin.line, region.begin.column);
 }
 
 // Throws Error with the place for what is no TOML.

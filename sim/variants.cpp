@@ -1,6 +1,7 @@
 // Named snapshots of a hairstyle: [variant.NAME].
 #include "sim/error.h"
 #include "sim/hairstyle_lists.h"
+#include "sim/shown.h"
 #include "sim/toml_values.h"
 
 #include <algorithm>
@@ -49,8 +50,9 @@ void switch_variant(Hairstyle& style, const std::string& name)
     {
         std::string names;
         for (const auto& [known, settings] : variants)
-            names += (names.empty() ? "" : ", ") + known;
-        throw fail("{} has no variant '{}'; it has {}", style.name(), name, names.empty() ? "none" : names);
+            names += (names.empty() ? "" : ", ") + shown(known);
+        throw fail("{} has no variant '{}'; it has {}", shown(style.name()), shown(name),
+                   names.empty() ? "none" : names);
     }
     style.variants = variants;
     if (!style.variant.empty())
@@ -66,7 +68,7 @@ void take_variant(Hairstyle& style, const std::string& name)
     const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char c)
                                                             { return std::isalnum(c) || c == '_' || c == '-'; });
     if (!plain || name.size() > 60)
-        throw fail("'{}' cannot be a variant's name: letters, digits, _ and - only", name);
+        throw fail("'{}' cannot be a variant's name: letters, digits, _ and - only", shown(name));
     style.variants = current_variants(style);
     if (style.variant.empty())
         style.own = style.text.empty() ? HairParams{} : parse_hairstyle(style.text, style.file, false).params;
@@ -80,8 +82,16 @@ void read_variants(Hairstyle& style, const toml::node& node)
     const toml::table* all = node.as_table();
     if (!all)
         throw fail("{}: variants must be written as [variant.NAME] tables", place(file, node.source()));
-    if (all->size() > 64)
-        throw fail("{}: {} variants are more than the 64 that coif takes", place(file, node.source()), all->size());
+    constexpr size_t most = 64;
+    if (all->size() > most)
+    {
+        std::vector<toml::source_region> there; // in the file's order, which is not the table's
+        for (auto&& [name, entry] : *all)
+            there.push_back(entry.source());
+        std::ranges::sort(there, {},
+                          [](const toml::source_region& r) { return std::pair(r.begin.line, r.begin.column); });
+        throw fail("{}: {} variants are more than the {} that coif takes", place(file, there[most]), all->size(), most);
+    }
     for (auto&& [name, entry] : *all)
     {
         const toml::table* groups = entry.as_table();
@@ -93,7 +103,7 @@ void read_variants(Hairstyle& style, const toml::node& node)
             const toml::table* table = values.as_table();
             if (!table)
                 throw fail("{}: a variant holds parameters as strand.length, not '{}'", place(file, values.source()),
-                           std::string_view(group.str()));
+                           shown(group.str()));
             for (auto&& [key, value] : *table)
                 settings.push_back(
                     read_setting(file, fmt::format("{}.{}", std::string_view(group.str()), std::string_view(key.str())),

@@ -283,6 +283,15 @@ TEST_F(Commands, save_changes_what_is_asked_and_keeps_the_rest)
     EXPECT_FALSE(fs::exists(folder / "bad.toml"));
 }
 
+TEST_F(Commands, version_is_one_line_that_the_help_begins_with_too)
+{
+    const Result result = coif("--version");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out, "coif " COIF_VERSION "\n");
+    EXPECT_EQ(coif("--help").out.rfind("coif " COIF_VERSION ": ", 0), 0u) << coif("--help").out;
+}
+
 TEST_F(Commands, keys_lists_every_parameter)
 {
     const Result result = coif("keys");
@@ -371,6 +380,7 @@ TEST_F(Commands, bad_usage_ends_with_2_and_bad_input_with_1)
     EXPECT_EQ(coif("shot '' -o x.png").status, 2) << "a variable of the shell that is not set";
     EXPECT_EQ(coif("--help").status, 0);
     EXPECT_EQ(coif("shot nowhere.toml -o x.png").status, 1);
+    EXPECT_EQ(coif("shot /dev/zero -o x.png").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --size 9000x10").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --samples 0").status, 1);
     EXPECT_EQ(coif("shot small.toml -o x.png --time nan").status, 1);

@@ -2,9 +2,50 @@
 #include "tests/editor_window.h"
 
 #include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include <set>
 
 using namespace coif;
 using namespace coif::test;
+
+// Of a colour in sRGB (WCAG 2.1, relative luminance).
+static double luminance(float r, float g, float b)
+{
+    return 0.2126 * double(linear_of_srgb(r)) + 0.7152 * double(linear_of_srgb(g)) + 0.0722 * double(linear_of_srgb(b));
+}
+
+TEST_F(EditorWindow, figures_can_be_read_over_hair_of_any_colour)
+{
+    xdotool("mousemove " + at(300.0, 650.0));
+    xdotool("key t");
+    std::set<ImU32> backings, letters;
+    ASSERT_TRUE(until(
+        [&]
+        {
+            const ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+            const ImDrawData& all = *ImGui::GetDrawData();
+            for (int i = 0; i < all.CmdListsCount; ++i)
+                if (const ImDrawList& list = *all.CmdLists[i]; list._OwnerName == std::string("figures"))
+                    for (const ImDrawVert& v : list.VtxBuffer)
+                        (v.uv.x == white.x && v.uv.y == white.y ? backings : letters).insert(v.col);
+            return letters.size() > 1; // figures, and times in grey
+        }));
+    ASSERT_EQ(backings.size(), 1u);
+    const ImVec4 dark = ImGui::ColorConvertU32ToFloat4(*backings.begin());
+    for (const float hair : {0.0f, 1.0f}) // black and white; what lies between is between
+        for (const ImU32 color : letters)
+        {
+            const float through = (1.0f - dark.w) * hair;
+            const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(color);
+            EXPECT_EQ(ink.w, 1.0f);
+            const double text = luminance(ink.x, ink.y, ink.z);
+            const double behind =
+                luminance(dark.w * dark.x + through, dark.w * dark.y + through, dark.w * dark.z + through);
+            // WCAG 2.1, success criterion 1.4.3: 4.5 to 1 for text of this size.
+            EXPECT_GE((text + 0.05) / (behind + 0.05), 4.5) << std::hex << color << " over " << hair;
+        }
+}
 
 TEST_F(EditorWindow, a_drag_on_the_head_moves_it_and_the_hair_follows)
 {

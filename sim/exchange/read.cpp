@@ -2,6 +2,7 @@
 
 #include "sim/error.h"
 #include "sim/hairstyle.h"
+#include "sim/shown.h"
 
 #include <algorithm>
 
@@ -10,7 +11,7 @@ namespace coif
 
 HairFile read_hair_file(const std::filesystem::path& file)
 {
-    return parse_hair_file(read_file(file), file.string(), file.extension().string());
+    return parse_hair_file(read_file(file), shown_file(file), file.extension().string());
 }
 
 HairFile parse_hair_file(std::string_view bytes, const std::string& name, std::string suffix)

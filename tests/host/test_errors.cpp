@@ -1,8 +1,12 @@
 // What coif says to a broken style: the words are part of the program.
+#include "sim/shown.h"
 #include "sim/simulation.h"
 #include "tests/host/scratch.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <sys/stat.h>
 
 namespace coif
 {
@@ -47,8 +51,13 @@ TEST(BrokenStyle, is_told_with_file_line_column_and_what_would_be_right)
         {"[strand]\nlength = 07:32:00\n", "bob.toml:2:10: strand.length must be a number, not a date or time"},
         {"[strand.length]\n", "bob.toml:1:1: strand.length must be a number, not a table"},
         {"[strand]\nlength = {}\n", "bob.toml:2:10: strand.length must be a number, not a table"},
-        {"[strand]\nnodes = 16.0\n", "bob.toml:2:9: strand.nodes must be a whole number, not a number"},
-        {"[strand]\nnodes = \"16\"\n", "bob.toml:2:9: strand.nodes must be a whole number, not text"},
+        {"[strand]\nnodes = 16.0\n",
+         "bob.toml:2:9: strand.nodes must be a whole number in [3, 64], without point or exponent, not 16.0"},
+        {"[interpolation]\nstrands = 1e9\n", "bob.toml:2:11: interpolation.strands must be a whole number in "
+                                             "[0, 200000], without point or exponent, not 1000000000.0"},
+        {"[strand]\nnodes = nan\n",
+         "bob.toml:2:9: strand.nodes must be a whole number in [3, 64], without point or exponent, not nan"},
+        {"[strand]\nnodes = \"16\"\n", "bob.toml:2:9: strand.nodes must be a whole number in [3, 64], not text"},
         {"[forces]\nwind = 3\n", "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a number"},
         {"[forces]\nwind = [1, 2]\n",
          "bob.toml:2:8: forces.wind must be three numbers like [0.0, 1.0, 0.0], not a list"},
@@ -86,13 +95,15 @@ TEST(BrokenStyle, is_told_with_file_line_column_and_what_would_be_right)
         {"[strand]\nlength = -inf\n", "bob.toml:2:10: strand.length is -inf, but must be a finite number"},
         {"[strand]\nlength = 1e300\n", "bob.toml:2:10: strand.length is 1e+300, but must lie in [0.002, 1.5] m"},
         {"[forces]\nwind = [0, nan, 0]\n", "bob.toml:2:8: forces.wind is nan, but must be a finite number"},
-        {"[interpolation]\nstrands = -1\n", "bob.toml:2:11: interpolation.strands is -1, but must lie in [0, 200000]"},
+        {"[interpolation]\nstrands = -1\n",
+         "bob.toml:2:11: interpolation.strands is -1, but must be a whole number in [0, 200000]"},
         {"[interpolation]\nstrands = 9223372036854775807\n",
-         "bob.toml:2:11: interpolation.strands is 9.223372036854776e+18, but must lie in [0, 200000]"},
+         "bob.toml:2:11: interpolation.strands is 9223372036854775807, but must be a whole number in [0, 200000]"},
         {"[strand]\nnodes = -9223372036854775808\n",
-         "bob.toml:2:9: strand.nodes is -9.223372036854776e+18, but must lie in [3, 64]"},
-        {"[strand]\nnodes = 4294967312\n", "bob.toml:2:9: strand.nodes is 4294967312, but must lie in [3, 64]"},
-        {"[strand]\nnodes = 65\n", "bob.toml:2:9: strand.nodes is 65, but must lie in [3, 64]"},
+         "bob.toml:2:9: strand.nodes is -9223372036854775808, but must be a whole number in [3, 64]"},
+        {"[strand]\nnodes = 4294967312\n",
+         "bob.toml:2:9: strand.nodes is 4294967312, but must be a whole number in [3, 64]"},
+        {"[strand]\nnodes = 65\n", "bob.toml:2:9: strand.nodes is 65, but must be a whole number in [3, 64]"},
         // Colliders.
         {"collider = 3\n", "bob.toml:1:12: collider must be written as [[collider]] tables"},
         {"[collider]\ncenter = [0, 0, 0]\nradius = 1\n",
@@ -207,17 +218,49 @@ TEST(BrokenStyle, the_deepest_keys_that_are_let_through_crash_nothing)
     EXPECT_EQ(parse_hairstyle(colliders + "]\n", "bob.toml").host.colliders.size(), 256u);
 }
 
-TEST(BrokenStyle, too_many_colliders_are_told)
+TEST(BrokenStyle, too_many_colliders_are_told_at_the_first_of_them)
 {
     const std::string one = "[[collider]]\ncenter = [0, 0, 0]\nradius = 1\n";
     EXPECT_EQ(told(repeated(one, 256)), "no error");
-    EXPECT_EQ(told(repeated(one, 257)), "bob.toml:1:1: 257 colliders are more than the 256 that coif takes");
+    // It is the first that is too many that is in the way.
+    EXPECT_EQ(told(repeated(one, 257)), "bob.toml:769:1: 257 colliders are more than the 256 that coif takes");
+    EXPECT_EQ(told(repeated(one, 300)), "bob.toml:769:1: 300 colliders are more than the 256 that coif takes");
+    EXPECT_EQ(told("collider = [\n" + repeated("{center = [0, 0, 0], radius = 1},\n", 258) + "]\n"),
+              "bob.toml:258:1: 258 colliders are more than the 256 that coif takes");
+}
+
+TEST(BrokenStyle, too_many_of_any_list_are_told_at_the_first_of_them)
+{
+    const std::pair<const char*, std::string> lists[] = {
+        {"regions", "[[region]]\nname = \"a{}\"\n"},
+        {"partings", "[[parting]]\npoints = [[0, 0, 0], [0, 0, 1]]\n"},
+        {"maps", "[[map]]\nof = \"strand.length\"\nvalues = [1]\n"},
+        {"ties", "[[tie]]\nname = \"a\"\n"},
+        {"lights", "[[light]]\ndirection = [0, 1, 0]\n"},
+    };
+    for (const auto& [name, one] : lists)
+    {
+        const size_t most = name == std::string("lights") ? kMostLights : 64,
+                     lines = size_t(std::ranges::count(one, '\n'));
+        std::string text = "[strand]\nlength = 0.2\n";
+        for (size_t i = 0; i < most + 2; ++i)
+            text += fmt::format(fmt::runtime(one), i);
+        EXPECT_EQ(told(text), fmt::format("bob.toml:{}:1: {} {} are more than the {} that coif takes", 3 + most * lines,
+                                          most + 2, name, most));
+    }
+    std::string variants; // whose order in the file is not that of their names
+    for (int i = 0; i < 66; ++i)
+        variants += fmt::format("[variant.v{}]\nstrand.length = 0.2\n", 99 - i);
+    EXPECT_EQ(told(variants), "bob.toml:129:1: 66 variants are more than the 64 that coif takes");
+    EXPECT_EQ(told("[[parting]]\npoints = [\n" + repeated("[0, 0, 0],\n[0, 0, 1],\n", 129) + "]\n"),
+              "bob.toml:259:1: parting.points must be 2 to 256 points, not 258");
 }
 
 TEST(BrokenStyle, a_file_that_is_none_is_told)
 {
     const Scratch scratch;
-    EXPECT_EQ(error_of([&] { load_hairstyle(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_hairstyle(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     EXPECT_EQ(error_of([&] { load_hairstyle(scratch / "none.toml"); }),
               (scratch / "none.toml").string() + ": there is no such file");
     const fs::path large = scratch.write("large.toml", "#" + std::string(5 << 20, 'x'));
@@ -225,6 +268,52 @@ TEST(BrokenStyle, a_file_that_is_none_is_told)
               large.string() + ": is larger than the 4194304 bytes that coif reads of such a file");
     const fs::path long_key = scratch.write("key.toml", std::string(3 << 20, 'k') + " = 1\n");
     EXPECT_NE(error_of([&] { load_hairstyle(long_key); }), "no error");
+}
+
+TEST(BrokenStyle, what_never_ends_or_never_begins_is_read_by_none_and_told_where_the_style_names_it)
+{
+    const test::TimeLimit limit(20);
+    const Scratch scratch;
+    ASSERT_EQ(mkfifo((scratch / "pipe").c_str(), 0600), 0);
+    fs::create_directory(scratch / "folder");
+    const std::string pipe = (scratch / "pipe").string(), folder = (scratch / "folder").string();
+    const std::pair<std::string, std::string> files[] = {
+        {pipe, pipe + ": is a pipe, not a regular file; write what it gives into a file and name that"},
+        {folder, folder + ": is a folder, not a regular file; name a file in it"},
+        {"/dev/zero", "/dev/zero: is a device, not a regular file; write what it gives into a file and name that"},
+    };
+    const std::pair<std::string, std::string> keys[] = {
+        {"[scalp]\nmesh = ", ":2:8: "},
+        {"[head]\nmesh = ", ":2:8: "},
+        {"[head]\nspheres = ", ":2:11: "},
+        {"[look]\nlights = ", ":2:10: "},
+        {"[groom]\nimport = ", ":2:10: "},
+        {"[groom]\nrest = ", ":2:8: "},
+        {"[[region]]\nname = 'a'\n[[region]]\nname = 'b'\nfile = ", ":5:8: "},
+        {"[[map]]\nof = 'strand.length'\nfile = ", ":3:8: "},
+    };
+    const std::string bob = (scratch / "bob.toml").string();
+    for (const auto& [file, fault] : files)
+    {
+        for (const auto& [key, place] : keys)
+        {
+            scratch.write("bob.toml", key + "'" + file + "'\n");
+            EXPECT_EQ(error_of([&] { load_assets(load_hairstyle(bob)); }), bob + place + fault);
+        }
+        EXPECT_EQ(error_of([&, f = file] { load_hairstyle(f); }), fault);
+        EXPECT_EQ(error_of([&, f = file] { load_motion(f); }), fault);
+        EXPECT_EQ(error_of([&, f = file] { load_mesh(f); }), fault);
+    }
+    if (const fs::path passes = "/proc/self/pagemap"; fs::is_regular_file(passes)) // terabytes, in no bytes
+    {
+        EXPECT_EQ(error_of([&] { load_hairstyle(passes); }),
+                  passes.string() + ": is larger than the 4194304 bytes that coif reads of such a file");
+        EXPECT_EQ(error_of([&] { load_mesh(passes); }),
+                  passes.string() + ": is no mesh that coif can read: it is empty");
+    }
+    scratch.write("bob.toml", "[[map]]\nof = 'strand.length'\nfile = 'none.map'\n");
+    EXPECT_EQ(error_of([&] { load_hairstyle(bob); }),
+              bob + ":3:8: " + (scratch / "none.map").string() + ": there is no such file");
 }
 
 TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style_names_it)
@@ -239,7 +328,7 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     EXPECT_EQ(loaded(""), "no error");
     EXPECT_EQ(loaded("[interpolation]\nrefine = 5\n").rfind(bob + ":2:10: interpolation.refine: 5 would give more", 0),
               0u);
-    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is no plain file");
+    EXPECT_EQ(loaded("[head]\nmesh = '/'\n"), bob + ":2:8: /: is a folder, not a regular file; name a file in it");
     scratch.write("giant.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n");
     EXPECT_NE(loaded("[head]\nmesh = 'giant.obj'\n").find("is further than 1000000 from the origin"),
               std::string::npos);
@@ -266,6 +355,107 @@ TEST(BrokenStyle, a_named_file_that_is_missing_or_broken_is_told_where_the_style
     EXPECT_NE(loaded("[head]\nmesh = 'folder'\n"), "no error");
     EXPECT_NE(loaded("[scalp]\nmesh = 'folder'\n"), "no error");
     EXPECT_EQ(loaded("[head]\nmesh = ''\nspheres = ''\n"), "no error");
+}
+
+// Bytes of one letter each, in UTF-8, none of which does anything in a terminal but to show?
+bool prints(const std::string& text)
+{
+    for (size_t i = 0; i < text.size();)
+    {
+        const auto byte = [&](size_t at) { return at < text.size() ? int(static_cast<unsigned char>(text[at])) : 0; };
+        const size_t length = byte(i) < 0x80 ? 1 : byte(i) < 0xe0 ? 2 : byte(i) < 0xf0 ? 3 : 4;
+        if (byte(i) < 0x20 || byte(i) == 0x7f || (byte(i) >= 0x80 && byte(i) < 0xc2) || byte(i) >= 0xf5 ||
+            (byte(i) == 0xc2 && byte(i + 1) < 0xa0))
+            return false;
+        for (size_t k = 1; k < length; ++k)
+            if ((byte(i + k) & 0xc0) != 0x80)
+                return false;
+        i += length;
+    }
+    return true;
+}
+
+TEST(LongTexts, are_told_by_their_beginnings_wherever_a_file_says_them)
+{
+    const Scratch scratch;
+    // Letters of one, two and four bytes, so that no cut by bytes passes, and what moves a terminal's cursor.
+    std::string text;
+    for (int i = 0; i < 5000; ++i)
+        text += "a\xc3\xa9\xf0\x9f\xa6\xb1\\u001b[2J\\u009b";
+    const std::string q = '"' + text + '"'; // as key and as value
+    const std::string of_styles[] = {
+        "[" + q + "]\nlength = 1\n",
+        q + " = 1\n",
+        "[strand]\n" + q + " = 1\n",
+        "[strand]\nlength = 1\n[strand]\n" + q + " = 1\n",
+        "[" + q + "]\n[" + q + "]\n",
+        "[[collider]]\n" + q + " = 1\ncenter = [0, 0, 0]\nradius = 1\n",
+        "[[region]]\nname = \"a\"\nwhere = " + q + "\n",
+        "[[region]]\nname = \"a\"\nstrand." + q + " = 1\n",
+        "[[region]]\nname = " + q + "\n[[region]]\nname = " + q + "\n",
+        "[[region]]\nname = " + q + "\nplanes = [[0, 1, 0, 50]]\n",
+        "[[region]]\nname = " + q + "\ngroup = " + q + "\n",
+        "[[region]]\nname = " + q + "\nweights = [1]\n",
+        "[[region]]\nname = \"a\"\nfile = " + q + "\n",
+        "[[map]]\nof = " + q + "\nvalues = [1]\n",
+        "[[map]]\nof = \"strand.length\"\nfile = " + q + "\n",
+        "[[tie]]\nname = " + q + "\nregions = " + q + "\n",
+        "[[light]]\nname = " + q + "\n",
+        "[variant." + q + "]\n" + q + " = 1\n",
+        "[variant.a]\nstrand." + q + " = 1\n",
+        "[groom]\nrest = " + q + "\n",
+        "[groom]\nimport = " + q + "\n",
+        "[scalp]\nmesh = " + q + "\n",
+        "[head]\nmesh = " + q + "\n",
+        "[head]\nspheres = " + q + "\n",
+        "[look]\nlights = " + q + "\n",
+    };
+    const auto expect_short = [](const std::string& told, const std::string& input)
+    {
+        EXPECT_NE(told, "no error") << input.substr(0, 60);
+        EXPECT_LT(told.size(), 1200u) << input.substr(0, 60);
+        EXPECT_TRUE(prints(told)) << input.substr(0, 60);
+    };
+    for (const std::string& style : of_styles)
+        expect_short(error_of([&] { load_assets(load_hairstyle(scratch.write("bob.toml", style))); }), style);
+    for (const std::string& lights : {q + " = 1\n", "[sky]\nradiance = 1\n" + q + " = 1\n"})
+        expect_short(error_of([&] { load_lights(scratch.write("l.toml", lights)); }), lights);
+    expect_short(error_of([&] { load_colliders(scratch.write("c.toml", q + " = 1\n")); }), "colliders");
+    for (const std::string& motion :
+         {q + " = 1\n", "[[step]]\nchannel = \"x\"\nat = 0\nby = 1\n" + q + " = 1\n", "[" + q + "]\n[" + q + "]\n"})
+        expect_short(error_of([&] { load_motion(scratch.write("m.toml", motion)); }), motion);
+    const std::string raw = repeated("a\x1b[2J\xc2\x9b\xff\n", 5000); // as an argument may be
+    Hairstyle style;
+    style.variants[raw] = {};
+    for (const std::string& set : {raw, raw + "=1", "strand.length=" + raw, "strand.length=1 " + raw})
+        expect_short(error_of([&] { assign(style, set); }), "--set");
+    expect_short(error_of([&] { switch_variant(style, raw + "x"); }), "--variant");
+    expect_short(error_of([&] { find_motion(raw); }), "--motion");
+    expect_short(error_of([&] { load_hairstyle(raw); }), "STYLE");
+}
+
+TEST(LongTexts, end_in_dots_after_eighty_letters_of_however_many_bytes)
+{
+    EXPECT_EQ(shown(""), "");
+    EXPECT_EQ(shown(std::string(80, 'k')), std::string(80, 'k'));
+    EXPECT_EQ(shown(std::string(81, 'k')), std::string(80, 'k') + "...");
+    EXPECT_EQ(shown(repeated("\u00e9", 80)), repeated("\u00e9", 80));
+    EXPECT_EQ(shown(repeated("\U0001f9b1", 81)), repeated("\U0001f9b1", 80) + "...");
+    EXPECT_EQ(shown("two\nlines\t\x1b[2J\x7f"), "two\\nlines\\u0009\\u001b[2J\\u007f");
+    EXPECT_EQ(shown("\u009b \u202e"), "\\u009b \\u202e") << "a terminal's escape in one letter, and writing backwards";
+    for (const auto& [bytes, expected] : {std::pair("\xff", "\\xff"),
+                                          {"\xc3", "\\xc3"},
+                                          {"\xc0\xaf", "\\xc0\\xaf"},
+                                          {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
+                                          {"\xc3(", "\\xc3("}})
+        EXPECT_EQ(shown(bytes), expected) << "which is no UTF-8";
+
+    const std::string deep = "/" + repeated("folder/", 12) + "bob.toml"; // such as people have
+    EXPECT_EQ(shown_file(deep), deep);
+    const std::string hostile = shown_file("begin" + std::string(1 << 20, 'x') + "\u00e9/end.obj");
+    EXPECT_TRUE(hostile.starts_with("beginxxx") && hostile.ends_with("xxx\u00e9/end.obj")) << hostile;
+    EXPECT_EQ(hostile.size(), 80u + 3u + 80u);
+    EXPECT_TRUE(prints(shown_file(std::string(100, 'x') + repeated("\u00e9", 100))));
 }
 
 TEST(BrokenScalp, is_told_with_its_line)
@@ -362,10 +552,11 @@ TEST(Assignment, that_will_not_do_is_told_and_changes_nothing)
          "--set strand.lenght=1: no parameter is called 'strand.lenght'; the nearest is strand.length"},
         {"strand.length=", "--set strand.length=: strand.length must be a number, not text"},
         {"strand.length=long", "--set strand.length=long: 'long' is no TOML value"},
-        {"strand.length=0.2\n[x]", "--set strand.length=0.2\n[x]: '0.2\n[x]' is more than one TOML value"},
+        {"strand.length=0.2\n[x]", "--set strand.length=0.2\\n[x]: '0.2\\n[x]' is more than one TOML value"},
         {"strand.length=-1", "--set strand.length=-1: strand.length is -1, but must lie in [0.002, 1.5] m"},
         {"strand.length=nan", "--set strand.length=nan: strand.length is nan, but must be a finite number"},
-        {"strand.nodes=2.5", "--set strand.nodes=2.5: strand.nodes must be a whole number, not a number"},
+        {"strand.nodes=2.5",
+         "--set strand.nodes=2.5: strand.nodes must be a whole number in [3, 64], without point or exponent, not 2.5"},
         {"smoothing.curve=round",
          "--set smoothing.curve=round: smoothing.curve must be one of linear, cosine, cubic, catmull_rom"},
         {"look.tip_color=#12",

@@ -91,7 +91,7 @@ TEST(Lights, what_is_wrong_is_told_with_its_place_in_files_and_in_styles)
         {one + "angle = 90\n", ":3:9: light.angle is 90, but must lie in [0, 60] deg"},
         {one + "power = 9\n", ":3:9: a light has no 'power'; it has name, direction, color, irradiance, angle"},
         {"[light]\ndirection = [0, 1, 0]\n", ":1:1: light must be written as [[light]] tables"},
-        {many + one, ":1:1: 17 lights are more than the 16 that coif takes"},
+        {many + one, ":33:1: 17 lights are more than the 16 that coif takes"},
         {"[[light]\n", ":1:9: not valid TOML"},
     };
     const Scratch scratch;
@@ -120,7 +120,8 @@ TEST(Lights, what_is_wrong_is_told_with_its_place_in_files_and_in_styles)
         EXPECT_EQ(told(text), message) << text;
     EXPECT_EQ(load_lights(scratch.write("l.toml", many)).lights.size(), kMostLights);
     EXPECT_EQ(parse_hairstyle(many, "bob.toml").host.lights.size(), kMostLights);
-    EXPECT_EQ(error_of([&] { load_lights(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_lights(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     EXPECT_NE(error_of([&] { load_lights(scratch.write("l.toml", "#" + std::string(5 << 20, 'x'))); })
                   .find("is larger than the 4194304 bytes"),
               std::string::npos);

@@ -553,9 +553,11 @@ TEST(Mesh, corners_that_are_not_there_and_numbers_that_are_none_are_told)
     const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
     const std::pair<const char*, std::string> broken[] = {
-        {"far.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n"},    {"below.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -7\n"},
-        {"none.ply", ply + "0 0 0\n1 0 0\n0 1 0\n0\n"},          {"nan.ply", ply + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"},
-        {"far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999\n"}, {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -7\n"},
+        {"far.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n"},   {"below.ply", ply + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -7\n"},
+        {"none.ply", ply + "0 0 0\n1 0 0\n0 1 0\n0\n"},         {"nan.ply", ply + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},  {"inf.obj", "v 0 0 0\nv 1 -inf 0\nv 0 1 0\nf 1 2 3\n"},
+        {"inf.ply", ply + "0 0 0\n1 0 0\n0 inf 0\n3 0 1 2\n"},  {"far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999\n"},
+        {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -7\n"},
     };
     for (const auto& [name, text] : broken)
     {
@@ -570,6 +572,26 @@ TEST(Mesh, corners_that_are_not_there_and_numbers_that_are_none_are_told)
     std::fill(bytes.begin(), bytes.end(), '\x7f');
     scratch.write("gltf2.bin", bytes);
     EXPECT_EQ(error_of([&] { load_mesh(gltf); }).rfind(gltf.string() + ": ", 0), 0u);
+}
+
+TEST(Mesh, one_whose_triangles_have_no_area_is_told)
+{
+    const Scratch scratch;
+    const auto told = [&](const std::string& vertices, const std::string& faces = "f 1 2 3\n")
+    {
+        const fs::path file = scratch.write("thin.obj", vertices + faces);
+        const std::string error = error_of([&] { load_mesh(file); });
+        return error.substr(std::min(error.size(), error.rfind(file.string(), 0) == 0 ? file.string().size() : 0));
+    };
+    const char* fault = ": all of its triangles are without area, so that there is nothing to see or to touch; "
+                        "export it with its faces as they are on screen";
+    EXPECT_EQ(told("v 0 0 0\nv 1 0 0\nv 2 0 0\n"), fault) << "in a line";
+    EXPECT_EQ(told("v 0.1 0.1 0.1\nv 0.2 0.2 0.2\nv 0.7 0.7 0.7\n"), fault) << "in a line, but for rounding";
+    EXPECT_EQ(told("v 1 2 3\nv 1 2 3\nv 1 2 3\n"), fault) << "in a point";
+    EXPECT_EQ(told("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 1 2\nf 3 2 3\n"), fault) << "named twice";
+    EXPECT_EQ(told("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n", "f 1 2 3\nf 1 2 4\n"), "no error") << "one is enough";
+    EXPECT_EQ(told("v 0 0 0\nv 1e-3 0 0\nv 0 1e-3 0\n"), "no error") << "small: head.unit may be anything";
+    EXPECT_EQ(told("v 0 0 0\nv 1 0 0\nv 0 1e-4 0\n"), "no error") << "thin";
 }
 
 } // namespace

@@ -164,6 +164,9 @@ TEST(Motion, a_broken_script_is_told_with_its_place)
         {"[[step]]\nchannel = \"x\"\nby = 1\nat = 0\nend = 2\n",
          "script.toml:5:7: 'end' is not known here; known are channel, by, at"},
         {"[[pose]]\ntime = 1\n[[pose]]\ntime = 1\n", "script.toml:3:1: the times of [[pose]] tables must grow"},
+        {"", "script.toml: holds no motion; for a head at rest say seconds = 2.0"},
+        {"# nothing\n\n", "script.toml: holds no motion; for a head at rest say seconds = 2.0"},
+        {"pose = []\n", "script.toml:1:8: 'pose' must be written as [[pose]]"},
         {"[[pose]]\nx = 1\n", "script.toml:1:1: this table needs 'time'"},
         {"[[ramp]]\nchannel = \"x\"\nby = 1\nbegin = 2\nend = 1\n", "script.toml:1:1: begin must not lie after end"},
         {"[[oscillation]]\nchannel = \"x\"\namplitude = 1\nfrequency = 1\nbegin = 2\nend = 1\n",
@@ -179,7 +182,8 @@ TEST(Motion, a_name_that_is_none_is_told_with_those_there_are)
     EXPECT_EQ(error_of([] { find_motion("shakee"); }),
               "'shakee' is neither a file nor one of coif's motions: drag, gust, nod, shake, still, teleport, turn");
     const Scratch scratch;
-    EXPECT_EQ(error_of([&] { load_motion(scratch.folder()); }), scratch.folder().string() + ": is no plain file");
+    EXPECT_EQ(error_of([&] { load_motion(scratch.folder()); }),
+              scratch.folder().string() + ": is a folder, not a regular file; name a file in it");
     const fs::path file = scratch.write("mine.toml", "seconds = 7\n");
     EXPECT_EQ(find_motion(file.string()).seconds, 7.0);
 }

@@ -3,6 +3,7 @@
 #include "app/lettering.h"
 #include "app/sequence.h"
 #include "app/sheet.h"
+#include "app/shot.h"
 #include "tests/host/scratch.h"
 
 #include <algorithm>
@@ -207,6 +208,31 @@ TEST(Lettering, what_sticks_out_is_cut_off)
     EXPECT_EQ(image.pixels[4 * (6 * 8 + 4) + 1], 2);
     EXPECT_EQ(image.pixels[4 * (6 * 8 + 5) + 1], 10);
     EXPECT_EQ(image.pixels[4 * (5 * 8 + 4) + 1], 10);
+}
+
+TEST(Pictures, a_camera_that_cannot_be_is_told_with_what_may_be_said)
+{
+    const auto told = [](const char* camera)
+    {
+        ShotOptions shot;
+        shot.camera = camera;
+        return error_of([&] { check_shot({}, shot); });
+    };
+    for (const char* good : {"", "front", "top", "25,5", "-360,89", "360,-89,0.02", "0,0,100"})
+        EXPECT_EQ(told(good), "no error") << good;
+    const std::pair<const char*, const char*> of_range[] = {
+        {"400,0", "--camera 400,0: camera.yaw is 400, but must lie in [-360, 360] deg"},
+        {"0,95", "--camera 0,95: camera.pitch is 95, but must lie in [-89, 89] deg"},
+        {"0,0,500", "--camera 0,0,500: camera.distance is 500, but must lie in [0.02, 100] m"},
+        {"0,0,0", "--camera 0,0,0: camera.distance is 0, but must lie in [0.02, 100] m"},
+        {"0,nan", "--camera 0,nan: camera.pitch is nan, but must be a finite number"},
+    };
+    for (const auto& [camera, expected] : of_range)
+        EXPECT_EQ(told(camera), expected);
+    for (const char* camera : {"sideways", "25", "25,", "25,5,", "25,5,1,1", "25,5,1m", "25;5"})
+        EXPECT_EQ(told(camera), std::string("--camera ") + camera +
+                                    ": expected front, left, right, back, top, or yaw,pitch[,distance] in degrees and "
+                                    "metres: as 25,5 or 25,5,0.95");
 }
 
 TEST(Pictures, a_place_that_cannot_be_written_is_told_before_the_work)
