@@ -123,6 +123,19 @@ TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
     EXPECT_EQ(image.pixels[size_t(4) * (24 * 64 + 32) + 3], 255) << "the head is in the middle";
 }
 
+TEST_F(Commands, a_traced_still_stands_on_the_ground)
+{
+    const std::string shot = "shot small.toml --size 64x48 --transparent --set camera.pitch=15 --traced 4 ";
+    const Result result = coif(shot + "--set look.ground=on -o ground.png");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("left out"), std::string::npos) << result.err;
+    ASSERT_EQ(coif(shot + "-o bare.png").status, 0);
+    const Image ground = load_png(folder / "ground.png"), bare = load_png(folder / "bare.png");
+    const size_t corner = size_t(4) * (47 * 64 + 2) + 3;
+    EXPECT_EQ(bare.pixels[corner], 0);
+    EXPECT_GT(ground.pixels[corner], 200);
+}
+
 TEST_F(Commands, a_traced_still_refuses_what_makes_no_sense)
 {
     for (const char* number : {"0", "-3", "70000"})

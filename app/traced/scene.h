@@ -23,7 +23,15 @@ struct TracedScene
     FibreLook fibre;
 
     std::vector<glm::vec3> position, normal, albedo; // of the solids' corners
+    std::vector<float> gloss;                        // of each as well, 0 to 1; or none, where all are matt
     std::vector<glm::uvec3> triangles;
+
+    struct
+    {
+        glm::dvec3 middle{0.0};
+        double radius = 0.0; // 0: no ground
+        glm::dvec3 albedo{0.0};
+    } ground; // app/ground.h
 
     Lighting lighting;
 

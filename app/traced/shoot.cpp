@@ -89,9 +89,8 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     simulation.solver().draw();
     HairParams params = simulation.params();
     params.look_level = LOOK_DUAL_SCATTERING; // shown as the levels that reckon with the strength of light are
-    if (params.look_ground != 0 || params.camera_shutter > 0.0f)
-        fmt::print(stderr, "coif: a traced still has no ground and no shutter: look.ground and camera.shutter are left "
-                           "out\n");
+    if (params.camera_shutter > 0.0f)
+        fmt::print(stderr, "coif: a traced still has no shutter: camera.shutter is left out\n");
     const Tracer tracer(traced_scene(frame_input(simulation, shot_camera(simulation, shot, turn))));
 
     const Hash hash = hash_of(tracer.scene());
