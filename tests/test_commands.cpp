@@ -123,6 +123,49 @@ TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
     EXPECT_EQ(image.pixels[size_t(4) * (24 * 64 + 32) + 3], 255) << "the head is in the middle";
 }
 
+TEST_F(Commands, a_traced_still_knows_of_the_shutter)
+{
+    // Half a metre a second to the side; the shutter is open for two steps.
+    write("slide.toml", "seconds = 1.0\n[[oscillation]]\nchannel = \"x\"\namplitude = 0.1\nfrequency = 1.0\n");
+    const std::string shot = "shot small.toml --size 64x48 --transparent --motion slide.toml ",
+                      open = "--set camera.shutter=0.8 ";
+    const auto taken = [&](const std::string& rest, const std::string& name)
+    {
+        const Result result = coif(shot + rest + " -o " + name + ".png");
+        EXPECT_EQ(result.status, 0) << result.err;
+        return contents(name + ".png");
+    };
+    taken(open + "--time 0.1 --traced 3", "a");
+    const Result more = coif(shot + open + "--time 0.1 --traced 8 -o a.png");
+    EXPECT_NE(more.err.find("goes on from 3 samples"), std::string::npos) << more.err;
+    taken(open + "--time 0.1 --traced 8", "b");
+    EXPECT_EQ(contents("a.png"), contents("b.png"));
+    EXPECT_EQ(contents("a.traced"), contents("b.traced"));
+    for (const char* other : {"--set camera.shutter=0.6 ", ""})
+        EXPECT_NE(coif(shot + other + "--time 0.1 --traced 1 -o b.png").err.find("starts anew"), std::string::npos);
+
+    // At the very beginning nothing has moved yet.
+    EXPECT_EQ(taken(open + "--time 0 --traced 2", "c"), taken("--time 0 --traced 2", "d"));
+
+    taken("--time 0.06667 --traced 8", "begin");
+    taken("--time 0.1 --traced 8", "end");
+    const auto middle = [&](const char* name) // of what is covered, in pixels from the left
+    {
+        const Image image = load_png(folder / (std::string(name) + ".png"));
+        double sum = 0.0, all = 0.0;
+        for (int i = 0; i < image.width * image.height; ++i)
+        {
+            sum += (i % image.width) * double(image.pixels[size_t(4 * i + 3)]);
+            all += double(image.pixels[size_t(4 * i + 3)]);
+        }
+        return sum / all;
+    };
+    const double begin = middle("begin"), end = middle("end"), way = end - begin;
+    EXPECT_GT(std::abs(way), 0.5);
+    EXPECT_GT((middle("a") - begin) / way, 0.3);
+    EXPECT_LT((middle("a") - begin) / way, 0.7);
+}
+
 TEST_F(Commands, a_traced_still_stands_on_the_ground)
 {
     const std::string shot = "shot small.toml --size 64x48 --transparent --set camera.pitch=15 --traced 4 ";
