@@ -1,4 +1,5 @@
-// What a traced still depends on, in plain numbers: strands as round curves, solids as triangles, lights, the camera.
+// What a traced still depends on, in plain numbers: strands as round curves, solids as triangles, the
+// ground, lights, the camera.
 #pragma once
 #include "app/renderer.h"
 #include "app/traced/fibre_near.h"

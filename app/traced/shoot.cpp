@@ -169,7 +169,10 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     if (moments.empty())
         Tracer(std::move(scene)).trace(picture, uint32_t(samples), {}, say);
     else
+    {
+        scene = {}; // may be large
         trace_moments(picture, uint32_t(samples), simulation, moments, scene_now, say);
+    }
     progress.clear();
     write_record(file, hash, picture);
 
