@@ -37,6 +37,13 @@ LinearImage light_at_level(Renderer& renderer, Simulation& simulation, const Cam
     return renderer.linear_picture(frame, picture.width, picture.height);
 }
 
+TracedScene truth_scene(const Simulation& simulation, const Camera& camera)
+{
+    FrameInput frame = frame_input(simulation, camera);
+    frame.params.look_ground = 0;
+    return traced_scene(frame);
+}
+
 LookTruth look_truth(const Tracer& tracer, const SmallPicture& picture, const TruthLimits& limits)
 {
     using Clock = std::chrono::steady_clock;

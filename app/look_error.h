@@ -20,6 +20,9 @@ struct SmallPicture
 LinearImage light_at_level(Renderer& renderer, Simulation& simulation, const Camera& camera, int level,
                            const SmallPicture& picture);
 
+// The scene of the picture that they are held against: without a ground too, whose light the levels do not hand on.
+TracedScene truth_scene(const Simulation& simulation, const Camera& camera);
+
 // What they are held against.
 struct LookTruth
 {

@@ -23,7 +23,7 @@ void LookProbe::begin(Renderer& renderer, Simulation& simulation, const Camera& 
     shown.look_level = LOOK_DUAL_SCATTERING; // both through one display transform
     of_ = {simulation.params(), simulation.lighting()};
     LinearImage light = light_at_level(renderer, simulation, camera, level, small);
-    TracedScene scene = traced_scene(frame_input(simulation, camera));
+    TracedScene scene = truth_scene(simulation, camera);
     said_.clear();
     work_ = std::async(std::launch::async,
                        [this, small, shown, level, light = std::move(light), scene = std::move(scene)]() mutable

@@ -1,42 +1,18 @@
 // The plain ground under the head. It lies still in the world, though a leap of the head takes it along as it does the
 // camera.
-#include "app/renderer.h"
-
-#include "sim/strand_shapes.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
+#include "app/ground.h"
 
 namespace coif
 {
 
 static constexpr int kSquares = 128; // a side; light is found at corners, so they are smaller where shadows fall
 
-// Height of the lowest point of head and resting hair while the head stands upright at the world's origin, m.
-static float lowest_point(const FrameInput& frame)
-{
-    const HairParams& p = frame.params;
-    const Solver& solver = frame.simulation->solver();
-    const Assets& assets = frame.simulation->assets();
-    float lowest =
-        assets.head.positions.empty() ? (assets.scalp.center.y - assets.scalp.radius) * p.head_scale : INFINITY;
-    for (const glm::vec3& at : assets.head.positions)
-        lowest = std::min(lowest, (at.y * p.head_mesh_scale + p.head_offset.y) * p.head_scale);
-    const Groom& groom = solver.groom();
-    for (int g = 0; g < groom.guides; ++g)
-        for (int k = 1; k < groom.nodes; ++k)
-            lowest = std::min(lowest, float(vector_at(solver.rest_positions().data(), g, k, groom.nodes).y));
-    return lowest;
-}
-
 void Renderer::upload_ground(const FrameInput& frame)
 {
-    if (frame.params.look_ground == 0)
+    const std::optional<Ground> found = ground_of(frame);
+    if (!found)
         return;
-    const Groom& groom = frame.simulation->solver().groom();
-    const float height = lowest_point(frame), radius = 6.0f * groom.extent + 2.0f * groom.longest;
+    const float height = found->height, radius = found->radius;
     if (ground_height_ == height && ground_radius_ == radius)
         return;
     ground_height_ = height;

@@ -22,7 +22,7 @@ static void hold_against_truth(LookReport& look, Simulation& simulation, int sam
     HairParams shown = simulation.params();
     shown.look_level = LOOK_DUAL_SCATTERING; // all through one display transform
     progress.say("follows light through the strands");
-    const Tracer tracer(traced_scene(frame_input(simulation, camera)));
+    const Tracer tracer(truth_scene(simulation, camera));
     TruthLimits limits;
     limits.samples = samples;
     look.truth = look_truth(tracer, small, limits);

@@ -42,7 +42,7 @@ static void put_levels(Image& page, const SheetLayout& at, int first, Simulation
     HairParams shown = simulation.params();
     shown.look_level = LOOK_DUAL_SCATTERING; // all through one display transform
     simulation.solver().draw();
-    const Tracer tracer(traced_scene(frame_input(simulation, camera)));
+    const Tracer tracer(truth_scene(simulation, camera));
     TruthLimits limits;
     limits.samples = traced;
     limits.seconds = INFINITY;

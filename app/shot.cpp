@@ -82,24 +82,11 @@ Studio::Studio(const Device& device, const Hairstyle& style, const Motion& motio
         fmt::print(stderr, "coif: one sample shows neither camera.aperture nor camera.shutter; take more --samples\n");
 }
 
-double Studio::open_steps() const { return open_seconds(simulation_.params()) / simulation_.step_seconds(); }
-
-// Keeps what a picture at step `target` will be made of.
-void Studio::note_moment(long target)
-{
-    const long first = long(std::floor(double(target) - open_steps()));
-    while (!moments_.empty() && moments_.front().first < first)
-        moments_.pop_front();
-    const long now = simulation_.steps();
-    if (open_steps() > 0.0 && now >= first && (moments_.empty() || moments_.back().first < now))
-        moments_.emplace_back(now, simulation_.solver().moment());
-}
-
 void Studio::play_to(double seconds)
 {
     const long target = std::lround(seconds / simulation_.step_seconds());
-    note_moment(target);
-    coif::play_to(simulation_, shot_, seconds, [&] { note_moment(target); });
+    note_moment(moments_, simulation_, target);
+    coif::play_to(simulation_, shot_, seconds, [&] { note_moment(moments_, simulation_, target); });
 }
 
 void play_to(Simulation& simulation, const ShotOptions& shot, double seconds, const std::function<void()>& after_step)
@@ -143,11 +130,7 @@ LinearImage Studio::moving_picture(double turn)
     LinearImage mean{shot_.width, shot_.height, {}};
     for (int i = 0; i < samples; ++i)
     {
-        const double end = double(moments_.back().first), begin = end - open_steps();
-        const double at = std::max(begin + (end - begin) * (i + 0.5) / samples, double(moments_.front().first));
-        const size_t before = std::min(size_t(at) - size_t(moments_.front().first), moments_.size() - 1);
-        const size_t after = std::min(before + 1, moments_.size() - 1);
-        solver.show(between(moments_[before].second, moments_[after].second, at - std::floor(at)));
+        solver.show(moment_at(moments_, simulation_, (i + 0.5) / samples));
         FrameInput sample = frame(turn);
         sample.samples = 1;
         sample.first = i;
@@ -163,14 +146,14 @@ LinearImage Studio::moving_picture(double turn)
 
 LinearImage Studio::linear_picture(double turn)
 {
-    if (open_steps() > 0.0)
+    if (open_steps(simulation_) > 0.0)
         return moving_picture(turn);
     return renderer_.linear_picture(frame(turn), shot_.width, shot_.height);
 }
 
 Image Studio::picture(double turn)
 {
-    if (open_steps() > 0.0)
+    if (open_steps(simulation_) > 0.0)
         return displayed(moving_picture(turn), simulation_.params());
     return renderer_.picture(frame(turn), shot_.width, shot_.height);
 }

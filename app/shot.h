@@ -1,8 +1,8 @@
 #pragma once
 #include "app/options.h"
 #include "app/renderer.h"
+#include "app/shutter.h"
 
-#include <deque>
 #include <functional>
 #include <optional>
 
@@ -51,14 +51,12 @@ class Studio
 
   private:
     FrameInput frame(double turn);
-    double open_steps() const; // that the shutter is open for
-    void note_moment(long target);
     LinearImage moving_picture(double turn);
 
     ShotOptions shot_;
     Simulation simulation_;
     Renderer renderer_;
-    std::deque<std::pair<long, Moment>> moments_; // the last steps that the shutter was open for, by number
+    Moments moments_;
 };
 
 // Is it light that is written to a file of this name, rather than the bytes of a picture?

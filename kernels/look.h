@@ -30,6 +30,10 @@
 #define SKY_TO_EYE 0.3f
 #define FIBRES_BEHIND 7.0f
 
+// Of the gloss on skin: Fresnel at normal incidence, for an index of 1.4, and the root of the width of GGX.
+#define SKIN_MIRRORS 0.028f
+#define SKIN_ROUGH 0.45f
+
 #define SHARE_TERMS 20 // floats a row of the table of shares: look_shade.cl
 #define SHARE_ROWS 32
 

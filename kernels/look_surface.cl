@@ -4,9 +4,6 @@
 // exp(-tau (1 - forward)), as the sky is. Work-item: WIDTH points.
 #include "look_rays.h"
 
-#define SKIN_MIRRORS 0.028f // Fresnel at normal incidence: an index of 1.4
-#define SKIN_ROUGH 0.45f
-
 // What of sun k's light comes through to a point, of each channel: the mean of four a voxel about it, across the light.
 // Where depth goes from little to much within a voxel, one alone would follow the voxels' stairs (means of light, not of
 // depth: Reeves, Salesin, Cook. Rendering antialiased shadows with depth maps. 1987). What of it bodies take, they keep:

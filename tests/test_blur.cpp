@@ -2,6 +2,7 @@
 #include "app/display.h"
 #include "app/lens.h"
 #include "app/shot.h"
+#include "app/traced/accumulation.h"
 #include "sim/source.h"
 #include "tests/on_device.h"
 
@@ -367,6 +368,48 @@ TEST_F(Blur, the_ground_takes_shadows)
             ASSERT_LE(clear.pixels[i + c], 4.0f * clear.pixels[i + 3] + 1e-6f) << "premultiplied";
     }
     EXPECT_GT(partly, 200) << "it fades towards its rim";
+}
+
+TEST_F(Blur, the_traced_ground_is_the_one_that_is_drawn)
+{
+    Hairstyle style;
+    for (const char* set : {"interpolation.strands=600", "camera.yaw=20", "camera.pitch=25", "camera.distance=2",
+                            "camera.target=[0, -0.15, 0]", "look.background='#a0a0a0'", "look.level=dual_scattering",
+                            "look.lights=outdoors.toml", "look.ground=on"})
+        assign(style, set);
+    // The head is elsewhere than at the world's origin, and leaps.
+    Motion motion;
+    motion.seconds = 1.0;
+    motion.steps.push_back({Motion::X, 0.5, 0.01});
+    Simulation simulation(test_device(), style);
+    simulation.play(motion);
+    for (int i = 0; i < 3; ++i)
+        simulation.step(simulation.hand());
+    FrameInput frame = frame_of(simulation, 16);
+    frame.camera.target += simulation.jumped();
+    frame.transparent = true;
+    EXPECT_GT(glm::length(simulation.jumped()), 0.4);
+    const int width = 120, height = 90;
+    const LinearImage drawn = renderer->linear_picture(frame, width, height);
+    const Tracer tracer(traced_scene(frame));
+    Accumulation sums = empty_accumulation(width, height);
+    tracer.trace(sums, 64, {});
+    const LinearImage traced = mean_of(sums);
+    double off = 0.0, ours = 0.0, theirs = 0.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+        {
+            const size_t i = 4 * size_t(y * width + x);
+            off += std::pow(double(traced.pixels[i + 3]) - double(drawn.pixels[i + 3]), 2.0) / (width * height);
+            if (y > height * 5 / 6 && x > width * 3 / 4) // open ground in the corner
+            {
+                ours += double(traced.pixels[i + 1]);
+                theirs += double(drawn.pixels[i + 1]);
+            }
+        }
+    EXPECT_LT(std::sqrt(off), 0.05) << "how much is covered: chance alone takes it by 0.06 where it is half";
+    EXPECT_GT(theirs, 10.0);
+    EXPECT_NEAR(ours / theirs, 1.0, 0.05);
 }
 
 // Where light is followed, what is drawn takes its colours from one list, the ground's first.

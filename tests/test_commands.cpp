@@ -123,6 +123,62 @@ TEST_F(Commands, a_traced_still_goes_on_from_where_it_ended)
     EXPECT_EQ(image.pixels[size_t(4) * (24 * 64 + 32) + 3], 255) << "the head is in the middle";
 }
 
+TEST_F(Commands, a_traced_still_knows_of_the_shutter)
+{
+    // Half a metre a second to the side; the shutter is open for two steps.
+    write("slide.toml", "seconds = 1.0\n[[oscillation]]\nchannel = \"x\"\namplitude = 0.1\nfrequency = 1.0\n");
+    const std::string shot = "shot small.toml --size 64x48 --transparent --motion slide.toml ",
+                      open = "--set camera.shutter=0.8 ";
+    const auto taken = [&](const std::string& rest, const std::string& name)
+    {
+        const Result result = coif(shot + rest + " -o " + name + ".png");
+        EXPECT_EQ(result.status, 0) << result.err;
+        return contents(name + ".png");
+    };
+    taken(open + "--time 0.1 --traced 3", "a");
+    const Result more = coif(shot + open + "--time 0.1 --traced 8 -o a.png");
+    EXPECT_NE(more.err.find("goes on from 3 samples"), std::string::npos) << more.err;
+    taken(open + "--time 0.1 --traced 8", "b");
+    EXPECT_EQ(contents("a.png"), contents("b.png"));
+    EXPECT_EQ(contents("a.traced"), contents("b.traced"));
+    for (const char* other : {"--set camera.shutter=0.6 ", ""})
+        EXPECT_NE(coif(shot + other + "--time 0.1 --traced 1 -o b.png").err.find("starts anew"), std::string::npos);
+
+    // At the very beginning nothing has moved yet.
+    EXPECT_EQ(taken(open + "--time 0 --traced 2", "c"), taken("--time 0 --traced 2", "d"));
+
+    taken("--time 0.06667 --traced 8", "begin");
+    taken("--time 0.1 --traced 8", "end");
+    const auto middle = [&](const char* name) // of what is covered, in pixels from the left
+    {
+        const Image image = load_png(folder / (std::string(name) + ".png"));
+        double sum = 0.0, all = 0.0;
+        for (int i = 0; i < image.width * image.height; ++i)
+        {
+            sum += (i % image.width) * double(image.pixels[size_t(4 * i + 3)]);
+            all += double(image.pixels[size_t(4 * i + 3)]);
+        }
+        return sum / all;
+    };
+    const double begin = middle("begin"), end = middle("end"), way = end - begin;
+    EXPECT_GT(std::abs(way), 0.5);
+    EXPECT_GT((middle("a") - begin) / way, 0.3);
+    EXPECT_LT((middle("a") - begin) / way, 0.7);
+}
+
+TEST_F(Commands, a_traced_still_stands_on_the_ground)
+{
+    const std::string shot = "shot small.toml --size 64x48 --transparent --set camera.pitch=15 --traced 4 ";
+    const Result result = coif(shot + "--set look.ground=on -o ground.png");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("left out"), std::string::npos) << result.err;
+    ASSERT_EQ(coif(shot + "-o bare.png").status, 0);
+    const Image ground = load_png(folder / "ground.png"), bare = load_png(folder / "bare.png");
+    const size_t corner = size_t(4) * (47 * 64 + 2) + 3;
+    EXPECT_EQ(bare.pixels[corner], 0);
+    EXPECT_GT(ground.pixels[corner], 200);
+}
+
 TEST_F(Commands, a_traced_still_refuses_what_makes_no_sense)
 {
     for (const char* number : {"0", "-3", "70000"})
@@ -215,6 +271,9 @@ TEST_F(Commands, report_holds_the_levels_of_the_look_against_traced_light)
     EXPECT_EQ(std::ranges::count(head, ','), std::ranges::count(values, ',')) << values;
     EXPECT_NE(values.find(",,"), values.npos) << "no times: " << values;
     EXPECT_EQ(coif(call + "--traced 2 --row --untimed").out, head + "\n" + values + "\n");
+    // The levels do not hand a ground's light on to hair, so that what they are held against has none.
+    EXPECT_TRUE(coif(call + "--traced 2 --row --untimed --set look.ground=on")
+                    .out.ends_with(values.substr(values.find(",still,")) + "\n"));
     EXPECT_EQ(coif(call + "--traced -1").status, 1);
     EXPECT_EQ(coif(call + "--traced 100000").status, 1);
 }

@@ -1,5 +1,6 @@
 // Light in the hair: the passes of kernels/look.h against their double-precision twins, and what must hold of them.
 #include "app/look_level.h"
+#include "app/traced/solid.h"
 #include "sim/wave.h"
 #include "tests/on_device.h"
 #include "tests/oracle_look.h"
@@ -588,6 +589,35 @@ TEST_F(LookPasses, SolidThingsAreLitAsTheTwinSays)
     }
     EXPECT_LT(worst, 2e-4);
     EXPECT_GT(mean, 0.05);
+}
+
+// What tells the traced skin from it is that this one is not coupled with what lies under it.
+TEST(Look, TheTracersGlossIsThatOfTheSkin)
+{
+    Hair bare(tangle(60, 1e-7f), plain_params(), false);
+    const Vec sun = glm::normalize(Vec(0.3, 0.9, 0.4)), eye(kEye);
+    bare.light(light_from({glm::vec3(sun)}, glm::vec3(0.0f)));
+    std::vector<LookSurface> surfaces = random_surfaces(2000);
+    for (LookSurface& s : surfaces)
+    {
+        s.normal.w = 1.0f;
+        s.albedo = F4(0.0f, 0.0f, 0.0f, 0.0f);
+    }
+    const std::vector<float4> lit = bare.shading.lit(surfaces, kEye);
+    const Vec irradiance = xyz(bare.lit().rays[0].irradiance);
+    int shining = 0;
+    for (size_t i = 0; i < surfaces.size(); ++i)
+    {
+        const Vec n = xyz(surfaces[i].normal), to_eye = glm::normalize(eye - xyz(surfaces[i].position));
+        const Vec x = glm::normalize(glm::cross(Vec(0.3, 0.2, 0.9), n)), y = glm::cross(n, x);
+        const auto turned = [&](const Vec& v) { return Vec(glm::dot(v, x), glm::dot(v, y), glm::dot(v, n)); };
+        if (turned(to_eye).z < 0.01) // not seen
+            continue;
+        const double expected = irradiance.y * scatter({Vec(0.0), 1.0}, turned(to_eye), turned(sun)).y;
+        EXPECT_NEAR(double(lit[i].y), expected, 1e-3 * expected + 1e-5);
+        shining += expected > 0.01;
+    }
+    EXPECT_GT(shining, 20);
 }
 
 // The light along lines beside the straight edge of a capsule's shadow, on a plane behind it: as even as the edge is.

@@ -154,7 +154,7 @@ std::vector<Row> measure_look(const Measuring& with)
                 style.params.look_pheomelanin = pigment.pheomelanin;
                 simulation.set_style(style);
                 simulation.solver().draw();
-                const Tracer tracer(traced_scene(frame_input(simulation, camera)));
+                const Tracer tracer(truth_scene(simulation, camera));
                 const std::vector<float> hair = tracer.hair(width, height, 16);
                 const LinearImage truth = mean_of(traced(tracer, width, height, uint32_t(samples), 0));
                 const LinearImage again = mean_of(traced(tracer, width, height, uint32_t(samples), 1));
@@ -187,7 +187,7 @@ std::vector<Row> measure_look(const Measuring& with)
                 {
                     simulation.set_style(part);
                     simulation.solver().draw();
-                    const Tracer of_part(traced_scene(frame_input(simulation, camera)));
+                    const Tracer of_part(truth_scene(simulation, camera));
                     const LinearImage image = light_at_level(renderer, simulation, camera, level, small);
                     row.knob = knob;
                     add_radiance(rows, row,

@@ -1,7 +1,11 @@
 #include "app/traced/rays.h"
 
+#include "app/ground.h"
 #include "sim/error.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +13,7 @@ namespace coif
 {
 
 static constexpr int kMostSkipped = 64; // surfaces that a ray leaves strands by, before it comes into the next
+static constexpr float kOff = 2e-5f;    // m that rays begin off a solid, so that they do not meet it again
 
 void TracedRays::check(const char* doing) const
 {
@@ -116,6 +121,54 @@ RTCRayHit TracedRays::meet(const Ray& ray) const
     }
 }
 
-bool TracedRays::reaches(const Ray& ray) const { return meet(ray).hit.geomID == RTC_INVALID_GEOMETRY_ID; }
+OnGround TracedRays::ground_along(const Ray& ray) const
+{
+    if (!(of.ground.radius > 0.0 && ray.way.y < 0.0)) // from below it is not there
+        return {};
+    const double far = (of.ground.middle.y - ray.from.y) / ray.way.y;
+    if (!(far > 0.0))
+        return {};
+    const glm::dvec3 out = ray.from + far * ray.way - of.ground.middle;
+    return {far, ground_cover(std::hypot(out.x, out.z) / of.ground.radius)};
+}
+
+double TracedRays::reaches(const Ray& ray) const
+{
+    return meet(ray).hit.geomID == RTC_INVALID_GEOMETRY_ID ? 1.0 - ground_along(ray).share : 0.0;
+}
+
+glm::dvec3 face_of(const RTCRayHit& met)
+{
+    const glm::dvec3 across(met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z);
+    return across / std::max(glm::length(across), 1e-300);
+}
+
+SolidPlace TracedRays::solid_place(const RTCRayHit& met, const glm::dvec3& to_eye) const
+{
+    const glm::uvec3 t = of.triangles[met.hit.primID];
+    const float u = met.hit.u, v = met.hit.v, w = 1.0f - u - v;
+    const auto between = [&](const auto& of_corner)
+    { return w * of_corner[t.x] + u * of_corner[t.y] + v * of_corner[t.z]; };
+    SolidPlace place;
+    place.face = face_of(met);
+    if (glm::dot(place.face, to_eye) < 0.0)
+        place.face = -place.face;
+    place.normal = glm::dvec3(between(of.normal));
+    place.normal /= std::max(glm::length(place.normal), 1e-30);
+    const double turned = glm::dot(place.normal, place.face);
+    if (!(turned > 0.0)) // a mesh whose normals look inwards, or has none there
+        place.normal = turned < 0.0 ? -place.normal : place.face;
+    place.at = glm::dvec3(between(of.position)) + double(kOff) * place.face;
+    place.look.albedo = glm::dvec3(between(of.albedo));
+    if (!of.gloss.empty())
+        place.look.gloss = std::clamp(double(between(of.gloss)), 0.0, 1.0);
+    return place;
+}
+
+SolidPlace TracedRays::ground_place(const glm::dvec3& at) const
+{
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    return {glm::dvec3(at.x, of.ground.middle.y, at.z), up, up, {of.ground.albedo, 0.0}};
+}
 
 } // namespace coif

@@ -1,5 +1,6 @@
 #include "app/traced/scene.h"
 
+#include "app/ground.h"
 #include "app/renderer_rings.h"
 #include "app/root_shares.h"
 #include "app/solids.h"
@@ -75,6 +76,7 @@ static void add_head(TracedScene& scene, const FrameInput& frame, const HairPara
         scene.position.push_back(turn * (at * params.head_scale));
         scene.normal.push_back(turn * assets.head.normals[i]);
         scene.albedo.push_back(skin_albedo(params, roots[i]));
+        scene.gloss.push_back(1.0f - roots[i]);
     }
 }
 
@@ -135,6 +137,12 @@ TracedScene traced_scene(const FrameInput& frame)
         }
     }
 
+    scene.gloss.resize(scene.position.size(), 0.0f); // skin alone is glossy
+
+    if (const std::optional<Ground> ground = ground_of(frame))
+        scene.ground = {glm::dvec3(ground->moved + glm::vec3(0.0f, ground->height, 0.0f)), ground->radius,
+                        ground->albedo};
+
     const glm::dvec3 origin = frame.simulation->solver().head().origin;
     scene.eye = frame.camera.position() - origin;
     scene.forward = glm::normalize(frame.camera.target - frame.camera.position());
@@ -155,6 +163,7 @@ Hash hash_of(const TracedScene& scene)
     add(scene.position);
     add(scene.normal);
     add(scene.albedo);
+    add(scene.gloss);
     add(scene.triangles);
     for (const Sun& sun : scene.lighting.suns)
         add(std::vector<float>{sun.direction.x, sun.direction.y, sun.direction.z, sun.irradiance.x, sun.irradiance.y,
@@ -162,9 +171,10 @@ Hash hash_of(const TracedScene& scene)
     const glm::vec3 sky = scene.lighting.sky;
     const FibreLook& f = scene.fibre;
     add(std::vector<double>{double(scene.points), f.roughness, f.azimuthal, f.tilt, f.ior, sky.x, sky.y, sky.z});
-    for (const glm::dvec3& v : {scene.eye, scene.right, scene.up, scene.forward})
+    for (const glm::dvec3& v :
+         {scene.eye, scene.right, scene.up, scene.forward, scene.ground.middle, scene.ground.albedo})
         add(std::vector<double>{v.x, v.y, v.z});
-    add(std::vector<double>{scene.tangent, scene.lens, scene.focus});
+    add(std::vector<double>{scene.tangent, scene.lens, scene.focus, scene.ground.radius});
     return hash;
 }
 

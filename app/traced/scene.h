@@ -1,4 +1,5 @@
-// What a traced still depends on, in plain numbers: strands as round curves, solids as triangles, lights, the camera.
+// What a traced still depends on, in plain numbers: strands as round curves, solids as triangles, the
+// ground, lights, the camera.
 #pragma once
 #include "app/renderer.h"
 #include "app/traced/fibre_near.h"
@@ -23,7 +24,15 @@ struct TracedScene
     FibreLook fibre;
 
     std::vector<glm::vec3> position, normal, albedo; // of the solids' corners
+    std::vector<float> gloss;                        // of each as well, 0 to 1; or none, where all are matt
     std::vector<glm::uvec3> triangles;
+
+    struct
+    {
+        glm::dvec3 middle{0.0};
+        double radius = 0.0; // 0: no ground
+        glm::dvec3 albedo{0.0};
+    } ground; // app/ground.h
 
     Lighting lighting;
 

@@ -11,8 +11,10 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
+#include <functional>
 
 namespace coif
 {
@@ -69,6 +71,53 @@ static std::string duration(double seconds)
     return seconds < 90.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
 }
 
+// The n-th moment of an open shutter, as a share of it: however many are taken, they fill it evenly (additive
+// recurrence by the golden ratio; Weyl 1916).
+static double moment_of(uint32_t n)
+{
+    const double at = 0.5 + 0.6180339887498949 * double(n);
+    return at - std::floor(at);
+}
+
+// Of all that the light in a picture of what moves depends on.
+static Hash hash_of(const TracedScene& end, const Moments& moments, double open)
+{
+    Hash hash = hash_of(end);
+    for (const auto& [step, moment] : moments)
+    {
+        const glm::dvec3 at = moment.head.origin, jumped = moment.jumped;
+        const glm::dquat turn = moment.head.turn;
+        for (const double number : {double(moments.back().first - step), open, at.x, at.y, at.z, jumped.x, jumped.y,
+                                    jumped.z, turn.w, turn.x, turn.y, turn.z})
+            hash.add(&number, sizeof number);
+        hash.add(moment.guides.data(), moment.guides.size() * sizeof(float));
+    }
+    return hash;
+}
+
+// Each sample in a moment of its own, whose strands are sorted anew for it: no more than one scene is held at a time.
+static void trace_moments(Accumulation& picture, uint32_t samples, Simulation& simulation, const Moments& moments,
+                          const std::function<TracedScene()>& scene_now, const TraceSays& says)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const uint32_t first = picture.fewest();
+    bool stopped = false;
+    for (uint32_t n = first; n < samples && !stopped; ++n)
+    {
+        const auto of_all = [&](double share, double)
+        {
+            const double done = share * (n + 1.0), taken = std::chrono::duration<double>(Clock::now() - begin).count();
+            stopped = !says(done / samples, taken * (samples - done) / std::max(done - first, 1e-3));
+            return !stopped;
+        };
+        simulation.solver().show(moment_at(moments, simulation, moment_of(n)));
+        Tracer(scene_now()).trace(picture, n + 1, {}, of_all);
+        simulation.solver().take_times(); // lets the queue's uploads go
+    }
+    simulation.solver().show(moments.back().second);
+}
+
 int shoot_traced(const Options& options, const ShotOptions& shot, int samples, double turn)
 {
     if (samples < 1 || samples > kMostTraced)
@@ -85,16 +134,20 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
     Simulation simulation(device, style);
     simulation.play(motion);
     progress.say(style.name() + ": moves");
-    play_to(simulation, shot, options.seconds);
-    simulation.solver().draw();
+    Moments moments;
+    const long target = std::lround(options.seconds / simulation.step_seconds());
+    const auto note = [&] { note_moment(moments, simulation, target); };
+    note();
+    play_to(simulation, shot, options.seconds, note);
     HairParams params = simulation.params();
     params.look_level = LOOK_DUAL_SCATTERING; // shown as the levels that reckon with the strength of light are
-    if (params.look_ground != 0 || params.camera_shutter > 0.0f)
-        fmt::print(stderr, "coif: a traced still has no ground and no shutter: look.ground and camera.shutter are left "
-                           "out\n");
-    const Tracer tracer(traced_scene(frame_input(simulation, shot_camera(simulation, shot, turn))));
-
-    const Hash hash = hash_of(tracer.scene());
+    const auto scene_now = [&]
+    {
+        simulation.solver().draw();
+        return traced_scene(frame_input(simulation, shot_camera(simulation, shot, turn)));
+    };
+    TracedScene scene = scene_now(); // at the end
+    const Hash hash = hash_of(scene, moments, open_steps(simulation));
     Accumulation picture = empty_accumulation(shot.width, shot.height);
     progress.clear();
     if (before && before->of.word[0] == hash.word[0] && before->of.word[1] == hash.word[1] &&
@@ -113,7 +166,13 @@ int shoot_traced(const Options& options, const ShotOptions& shot, int samples, d
         progress.say(fmt::format("{}: traced {:.0f} %, {} left", style.name(), 100.0 * share, duration(left)));
         return !asked_to_stop;
     };
-    tracer.trace(picture, uint32_t(samples), {}, say);
+    if (moments.empty())
+        Tracer(std::move(scene)).trace(picture, uint32_t(samples), {}, say);
+    else
+    {
+        scene = {}; // may be large
+        trace_moments(picture, uint32_t(samples), simulation, moments, scene_now, say);
+    }
     progress.clear();
     write_record(file, hash, picture);
 

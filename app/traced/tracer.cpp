@@ -18,7 +18,6 @@ namespace coif
 {
 
 static constexpr double kPi = std::numbers::pi;
-static constexpr float kOff = 2e-5f;    // m that rays begin off a solid, so that they do not meet it again
 static constexpr int kAllLights = 2;    // bounces up to which each light is asked; later one, by chance
 static constexpr int kSafe = 3;         // bounces that no path is ended before, by chance
 static constexpr double kTrifle = 1e-6; // of its light that a path is ended with
@@ -115,6 +114,12 @@ glm::dvec3 Tracer::Embree::from_lights(Random& random, int bounce, const Receive
     return sum;
 }
 
+// Is it the ground that a ray stops at? Where there is only a share of it, by chance.
+static bool lands(const OnGround& ground, const RTCRayHit& met, Random& random)
+{
+    return ground.share > 0.0 && ground.far < double(met.ray.tfar) && random() < ground.share;
+}
+
 // Radiance that comes back along a ray. `hit`: it meets something.
 glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& hit) const
 {
@@ -123,7 +128,9 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
     for (int bounce = 0; bounce <= bounces; ++bounce)
     {
         const RTCRayHit met = meet(ray);
-        if (met.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        const OnGround ground = ground_along(ray);
+        const bool grounded = lands(ground, met, random);
+        if (!grounded && met.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         {
             if (bounce > 0)
                 light += share * glm::dvec3(of.lighting.sky);
@@ -131,42 +138,36 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
         }
         hit = true;
         const glm::dvec3 to_eye = -ray.way;
-        glm::dvec3 surface = glm::dvec3(met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z);
-        surface /= std::max(glm::length(surface), 1e-300);
-        if (met.hit.geomID == solids_id)
+        if (grounded || met.hit.geomID == solids_id)
         {
-            const glm::uvec3 t = of.triangles[met.hit.primID];
-            const float u = met.hit.u, v = met.hit.v, w = 1.0f - u - v;
-            const auto between = [&](const std::vector<glm::vec3>& of_corner)
-            { return glm::dvec3(w * of_corner[t.x] + u * of_corner[t.y] + v * of_corner[t.z]); };
-            glm::dvec3 normal = between(of.normal);
-            normal /= std::max(glm::length(normal), 1e-30);
-            if (glm::dot(surface, to_eye) < 0.0)
-                surface = -surface;
-            if (!(glm::dot(normal, surface) > 0.0)) // a mesh whose normals look inwards, or has none there
-                normal = glm::dot(normal, surface) < 0.0 ? -normal : surface;
-            const glm::dvec3 albedo = between(of.albedo),
-                             at = glm::dvec3(between(of.position)) + double(kOff) * surface;
-            light +=
-                share * from_lights(random, bounce,
-                                    [&](const glm::dvec3& way)
-                                    {
-                                        const double cosine = glm::dot(normal, way);
-                                        if (!(cosine > 0.0 && glm::dot(surface, way) > 0.0) || !reaches(Ray{at, way}))
-                                            return glm::dvec3(0.0);
-                                        return albedo * (cosine / kPi);
-                                    });
+            const SolidPlace place =
+                grounded ? ground_place(ray.from + ground.far * ray.way) : solid_place(met, to_eye);
             glm::dvec3 x, y;
-            frame_of(normal, x, y);
-            const double across = random(), turn = 2.0 * kPi * random();
-            ray = Ray{at, glm::normalize(std::sqrt(1.0 - across) * normal +
-                                         std::sqrt(across) * (std::cos(turn) * x + std::sin(turn) * y))};
-            share *= albedo;
-            if (!(glm::dot(ray.way, surface) > 0.0))
+            frame_of(place.normal, x, y);
+            const auto turned = [&](const glm::dvec3& way)
+            { return glm::dvec3(glm::dot(way, x), glm::dot(way, y), glm::dot(way, place.normal)); };
+            const glm::dvec3 eye = turned(to_eye);
+            light += share * from_lights(random, bounce,
+                                         [&](const glm::dvec3& way)
+                                         {
+                                             const glm::dvec3 scattered = scatter(place.look, eye, turned(way));
+                                             if (!(scattered.x + scattered.y + scattered.z > 0.0) ||
+                                                 !(glm::dot(place.face, way) > 0.0))
+                                                 return glm::dvec3(0.0);
+                                             return scattered * reaches(Ray{place.at, way});
+                                         });
+            const double first = random(), second = random();
+            const SolidSample next =
+                coif::sample(place.look, eye, {first, second, place.look.gloss > 0.0 ? random() : 0.0});
+            const glm::dvec3 way = next.to_light;
+            ray = Ray{place.at, glm::normalize(way.x * x + way.y * y + way.z * place.normal)};
+            share *= next.weight;
+            if (!(glm::dot(ray.way, place.face) > 0.0))
                 break; // into the solid, which only the smooth normal looks along
         }
         else
         {
+            const glm::dvec3 surface = face_of(met);
             alignas(16) float p[4], d[4];
             rtcInterpolate1(strands, met.hit.primID, met.hit.u, met.hit.v, RTC_BUFFER_TYPE_VERTEX, 0, p, d, nullptr, 4);
             const glm::dvec3 way_on(d[0], d[1], d[2]);
@@ -198,10 +199,9 @@ glm::dvec3 Tracer::Embree::light_of(Ray ray, Random& random, int bounces, bool& 
                                              const double sin_i = std::clamp(glm::dot(way, along), -1.0, 1.0);
                                              const double phi = std::atan2(glm::dot(way, other), glm::dot(way, side));
                                              const glm::dvec3 scattered = scatter(fibre, sin_o, sin_i, phi);
-                                             if (!(scattered.x + scattered.y + scattered.z > 1e-9) ||
-                                                 !reaches(leaving(way, sin_i)))
+                                             if (!(scattered.x + scattered.y + scattered.z > 1e-9))
                                                  return glm::dvec3(0.0);
-                                             return scattered;
+                                             return scattered * reaches(leaving(way, sin_i));
                                          });
             const std::array<double, 4> numbers = {random(), random(), random(), random()};
             const FibreSample next = coif::sample(fibre, sin_o, numbers);
@@ -269,8 +269,9 @@ std::vector<float> Tracer::hair(int width, int height, int samples) const
         {
             const Ray ray =
                 embree_->ray_of(int(pixel % size_t(width)), int(pixel / size_t(width)), width, height, random);
-            const unsigned met = embree_->meet(ray).hit.geomID;
-            if (met != RTC_INVALID_GEOMETRY_ID && met == embree_->strands_id)
+            const RTCRayHit met = embree_->meet(ray);
+            if (met.hit.geomID != RTC_INVALID_GEOMETRY_ID && met.hit.geomID == embree_->strands_id &&
+                !lands(embree_->ground_along(ray), met, random))
                 share[pixel] += 1.0f / float(samples);
         }
     return share;

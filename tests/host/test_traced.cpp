@@ -122,6 +122,167 @@ TEST(Traced, a_wall_follows_lamberts_law)
     EXPECT_NEAR(lit.y / lit.w, 0.25, 1e-6) << "all ways from it lead to the sky";
 }
 
+// A ball of 5 cm about a place, of flat faces.
+void add_ball(TracedScene& scene, glm::vec3 middle, glm::vec3 albedo, float gloss)
+{
+    constexpr int kRings = 24, kSides = 32;
+    const auto on = [&](int i, int j)
+    {
+        const double up = std::numbers::pi * i / kRings, turn = 2.0 * std::numbers::pi * j / kSides;
+        return glm::vec3(std::sin(up) * std::cos(turn), std::cos(up), std::sin(up) * std::sin(turn));
+    };
+    const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c)
+    {
+        const unsigned first = unsigned(scene.position.size());
+        const glm::vec3 across = glm::normalize(glm::cross(b - a, c - a));
+        for (const glm::vec3& corner : {a, b, c})
+        {
+            scene.position.push_back(middle + 0.05f * corner);
+            scene.normal.push_back(glm::dot(across, a) > 0.0f ? across : -across);
+            scene.albedo.push_back(albedo);
+            scene.gloss.push_back(gloss);
+        }
+        scene.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kSides; ++j)
+        {
+            if (i > 0)
+                add(on(i, j), on(i, j + 1), on(i + 1, j));
+            if (i + 1 < kRings)
+                add(on(i, j + 1), on(i + 1, j + 1), on(i + 1, j));
+        }
+}
+
+TEST(Traced, a_white_ball_never_outshines_the_sky)
+{
+    for (const float gloss : {0.0f, 1.0f})
+    {
+        TracedScene scene = empty_scene();
+        add_ball(scene, {0, 0, 0}, {1.0f, 0.5f, 0.0f}, gloss);
+        scene.lighting.sky = glm::vec3(1.0f);
+        const Accumulation picture = traced(scene, 256);
+        glm::dvec3 sum(0.0);
+        double whole = 0.0;
+        for (const glm::vec4& pixel : picture.sum)
+            if (pixel.w == 256.0f)
+            {
+                // But for chance, which takes the mean of 256 so far.
+                EXPECT_LE(pixel.x / 256.0f, gloss > 0.0f ? 1.03f : 1.0f + 1e-5f);
+                sum += glm::dvec3(pixel) / 256.0;
+                ++whole;
+            }
+        ASSERT_GT(whole, 50.0);
+        sum /= whole;
+        EXPECT_NEAR(sum.x, 1.0, gloss > 0.0f ? 0.003 : 1e-6);
+        if (gloss > 0.0f)
+        {
+            EXPECT_GT(sum.z, 0.03) << "its coat mirrors the sky though it is black";
+            EXPECT_LT(sum.z, 0.10);
+            EXPECT_LT(sum.y, 0.5 + 0.5 * sum.z + 0.003) << "and takes what it mirrors from what lies under it";
+        }
+        else
+        {
+            EXPECT_NEAR(sum.y, 0.5, 1e-6) << "just the albedo";
+            EXPECT_EQ(sum.z, 0.0);
+        }
+    }
+}
+
+// The camera a metre over the origin, looking straight down on a ground 20 cm below that; up in the picture is -z.
+TracedScene ground_scene(double radius)
+{
+    TracedScene scene = empty_scene();
+    scene.eye = {0, 1, 0};
+    scene.forward = {0, -1, 0};
+    scene.right = {1, 0, 0};
+    scene.up = {0, 0, -1};
+    scene.ground = {{0, -0.2, 0}, radius, {0.8, 0.5, 0.2}};
+    return scene;
+}
+
+TEST(Traced, the_ground_follows_lamberts_law)
+{
+    TracedScene scene = ground_scene(50.0);
+    const float third = std::numbers::pi_v<float> / 3.0f;
+    scene.lighting.suns = {{{std::sin(third), std::cos(third), 0.0f}, {2.0f, 3.0f, 4.0f}, 0.0f},
+                           {{0.6f, -0.8f, 0.0f}, glm::vec3(9.0f), 0.0f}}; // which shines on it from below
+    scene.lighting.sky = {0.5f, 0.25f, 1.0f};
+    const double pi = std::numbers::pi;
+    const glm::dvec4 wanted(0.8 * (2.0 * 0.5 / pi + 0.5), 0.5 * (3.0 * 0.5 / pi + 0.25), 0.2 * (4.0 * 0.5 / pi + 1.0),
+                            1.0);
+    for (const glm::vec4& pixel : traced(scene, 1).sum)
+        for (int c = 0; c < 4; ++c)
+            ASSERT_NEAR(pixel[c], wanted[c], 1e-5);
+
+    // From below it is not there.
+    scene.eye = {0, -1, 0};
+    scene.forward = {0, 1, 0};
+    EXPECT_EQ(sum_of(traced(scene, 2)), glm::dvec4(0.0));
+}
+
+TEST(Traced, the_ground_fades_towards_its_rim)
+{
+    TracedScene scene = ground_scene(0.1);
+    scene.lighting.sky = glm::vec3(1.0f);
+    const Accumulation picture = traced(scene, 400);
+    const double pixel = 1.2 * 2.0 * 0.1 / kHeight; // m on the ground
+    for (int x = 0; x < kWidth; ++x)
+    {
+        const glm::vec4 sum = picture.sum[size_t((kHeight / 2) * kWidth + x)] / 400.0f;
+        const double out = std::hypot((x + 0.5 - 0.5 * kWidth) * pixel, 0.5 * pixel) / 0.1;
+        const double t = std::clamp((out - 0.35) / 0.65, 0.0, 1.0), cover = 1.0 - t * t * (3.0 - 2.0 * t);
+        EXPECT_NEAR(sum.w, cover, 0.09) << out;
+        EXPECT_NEAR(sum.x, 0.8 * sum.w, 1e-4) << "premultiplied";
+    }
+    EXPECT_EQ(picture.sum[0].w, 0.0f) << "past the rim";
+}
+
+TEST(Traced, a_ball_shades_the_ground_below_it)
+{
+    TracedScene scene = ground_scene(50.0);
+    scene.eye = {0, -0.19, 0};
+    scene.lighting.sky = glm::vec3(1.0f);
+    const auto bright = [](const TracedScene& of)
+    { return double(traced(of, 1024).sum[size_t(kHeight / 2 * kWidth + kWidth / 2)].x) / 1024.0; };
+    EXPECT_NEAR(bright(scene), 0.8, 1e-4);
+    // A black ball of radius r whose middle is d above takes (r / d)^2 of an even sky's light: 5 and 10 cm.
+    add_ball(scene, {0.0f, -0.1f, 0.0f}, glm::vec3(0.0f), 0.0f);
+    EXPECT_NEAR(bright(scene) / 0.8, 0.75, 0.05);
+    scene.lighting.sky = glm::vec3(0.0f);
+    scene.lighting.suns = {{{0, 1, 0}, glm::vec3(3.0f), 0.0f}};
+    EXPECT_EQ(bright(scene), 0.0);
+}
+
+TEST(Traced, the_ground_lights_hair_from_below)
+{
+    TracedScene bare = tangle(300, 0.001f, glm::vec3(0.2f));
+    bare.lighting.suns = {{{0, 1, 0}, glm::vec3(3.0f), 0.0f}};
+    TracedScene white = bare, black = bare;
+    white.ground = {{0, -0.3, 0}, 9.0, glm::dvec3(0.9)};
+    black.ground = {{0, -0.3, 0}, 9.0, glm::dvec3(0.0)};
+    // The camera looks level; rows in the upper half show nothing of the ground.
+    const auto above = [](const TracedScene& scene)
+    {
+        double sum = 0.0;
+        const Accumulation picture = traced(scene, 32);
+        for (size_t i = 0; i < picture.sum.size() / 2; ++i)
+            sum += double(picture.sum[i].x);
+        return sum;
+    };
+    const double none = above(bare);
+    EXPECT_GT(above(white), 1.2 * none);
+    EXPECT_NEAR(above(black) / none, 1.0, 0.01) << "a black one hands nothing on";
+
+    TraceLimits direct;
+    direct.bounces = 0;
+    TracedScene under = bare; // a sun below the ground, which is not there from below, and hair above it
+    under.lighting.suns[0].direction = {0, -1, 0};
+    EXPECT_GT(sum_of(traced(under, 8, direct)).x, 0.0);
+    under.ground = white.ground;
+    EXPECT_EQ(sum_of(traced(under, 8, direct)).x, 0.0) << "it takes the light of a sun below it";
+}
+
 TEST(Traced, hair_shades_the_wall)
 {
     TracedScene scene = empty_scene();
@@ -263,6 +424,10 @@ TEST(Traced, every_input_has_a_hash_of_its_own)
     EXPECT_TRUE(differs([](TracedScene& s) { s.lighting.suns.push_back({}); }));
     EXPECT_TRUE(differs([](TracedScene& s) { s.eye.x = 1e-3; }));
     EXPECT_TRUE(differs([](TracedScene& s) { s.lens = 1e-3; }));
+    EXPECT_TRUE(differs([](TracedScene& s) { s.ground.radius = 1.0; }));
+    EXPECT_TRUE(differs([](TracedScene& s) { s.ground.middle.y = -0.1; }));
+    EXPECT_TRUE(differs([](TracedScene& s) { s.ground.albedo.x = 0.1; }));
+    EXPECT_TRUE(differs([](TracedScene& s) { s.gloss.push_back(1.0f); }));
 }
 
 TEST(Traced, a_record_is_read_as_it_was_written)
