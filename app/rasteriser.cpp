@@ -26,15 +26,20 @@ static float4 row_of(const glm::mat4& matrix, int row)
     return F4(r.x, r.y, r.z, r.w);
 }
 
-// Of all strands, that are drawn. Hangs on how far the head's middle is, and on nothing that jumps.
-static float kept_share(const RasterStrands& strands, const RasterView& view, float least_width)
+// Pixels that strands are wide on the whole. Hangs on how far the head's middle is, and on nothing that jumps.
+static float mean_width(const RasterStrands& strands, const RasterView& view)
 {
     const Solver& solver = *strands.solver;
     const glm::vec3 center(solver.head().turn * glm::dvec3(solver.groom().center));
     const float pixel = view.pixel * std::max(glm::distance(view.eye, center), view.near); // m
     const float4 along = strands.params.look_width_along;
-    const float width = strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w);
-    return least_width > 0.0f ? std::clamp(width / (least_width * pixel), 0.01f, 1.0f) : 1.0f;
+    return strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / pixel;
+}
+
+// Of all strands, that are drawn.
+static float kept_share(float width, float least_width)
+{
+    return least_width > 0.0f ? std::clamp(width / least_width, 0.01f, 1.0f) : 1.0f;
 }
 
 static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view, int chunk_count, float least_width)
@@ -48,7 +53,7 @@ static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view
     frame.near = view.near;
     frame.depth_at_infinity = 0.5f + 0.5f * (view.far + view.near) / (view.far - view.near);
     frame.depth_over = -view.far * view.near / (view.far - view.near);
-    frame.kept = strands.kept * kept_share(strands, view, least_width);
+    frame.kept = strands.kept * kept_share(mean_width(strands, view), least_width);
     frame.width = view.width;
     frame.height = view.height;
     frame.tiles_x = (view.width + TILE - 1) / TILE;
@@ -115,7 +120,7 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
     passes_.room_for("half_sorted", pieces * sizeof(RasterPiece));
     passes_.launch("raster_fill", "", size_t(frame.chunks));
     passes_.launch("raster_sort", "", tiles);
-    passes_.launch("raster_compose", "", tiles * size_t(TILE / band(passes_.device)));
+    passes_.launch("raster_compose", held_ ? "-D HELD" : "", tiles * size_t(TILE / band(passes_.device)));
     frame.later = 1;
     ++batches_;
     pieces_ += pieces;
@@ -142,6 +147,7 @@ try
     RasterFrame frame = frame_of(strands, view, chunks(passes_.device), least_width);
     if (frame.strands == 0)
         return {};
+    held_ = mean_width(strands, view) > held_width;
     const Groom& groom = strands.solver->groom();
     for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands"})
         passes_.buffers[shared] = strands.solver->buffers().at(shared);

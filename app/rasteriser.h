@@ -72,6 +72,8 @@ class Rasteriser
 
     // Strands that are thinner than so many pixels on the whole are drawn fewer and as much wider. 0: never.
     float least_width = 0.25f;
+    // Where they are wider than so many, pixels put two strands that lie along each other in order: raster_compose.cl.
+    float held_width = 2.0f;
     // Numbers that one batch may hold; tests make them small.
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
@@ -81,6 +83,7 @@ class Rasteriser
 
     Passes passes_;
     float* solid_ = nullptr; // mapped, or none
+    bool held_ = false;
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span
     size_t pieces_ = 0;

@@ -4,6 +4,9 @@
 // A piece is a ribbon between two points; where the next begins, across the direction that both have there, is the same
 // to the bit for either, so that no pixel of a strand is covered twice or missed. Along whichever of rows and columns
 // cross it, a ribbon covers each pixel by what it shares with it, which adds up to its area however thin it is.
+//
+// Pieces are in order by their middles' depth. Where they are wide (HELD) that order shows: of two strands that lie along
+// each other now one is in front, now the other. There one layer waits at each pixel, so that the next may go before it.
 #include "raster.h"
 
 #if WIDTH == 1
@@ -48,6 +51,10 @@ typedef struct Square
 {
     float open[SIDE * SIDE]; // share that is still seen through
     float red[SIDE * SIDE], green[SIDE * SIDE], blue[SIDE * SIDE], solid[SIDE * SIDE];
+#ifdef HELD
+    float held_depth[SIDE * SIDE], held_alpha[SIDE * SIDE];
+    float held_red[SIDE * SIDE], held_green[SIDE * SIDE], held_blue[SIDE * SIDE];
+#endif
 } Square;
 
 typedef struct Canvas
@@ -74,6 +81,44 @@ static inline void load_square(Square* square, global const uint2* picture, glob
     }
 }
 
+// A layer over what is nearer; what that leaves open.
+static inline real lay(Square* square, real alpha, real red, real green, real blue)
+{
+    const real open = LOAD(square->open), taken = open * alpha, left = open - taken;
+    STORE(left, square->open);
+    STORE(LOAD(square->red) + taken * red, square->red);
+    STORE(LOAD(square->green) + taken * green, square->green);
+    STORE(LOAD(square->blue) + taken * blue, square->blue);
+    return left;
+}
+
+#ifdef HELD
+static inline void hold_none(Square* square)
+{
+    STORE((real)(-1.0f), square->held_depth); // before all
+    STORE((real)(0.0f), square->held_alpha);
+    STORE((real)(0.0f), square->held_red);
+    STORE((real)(0.0f), square->held_green);
+    STORE((real)(0.0f), square->held_blue);
+}
+
+// Of a layer and the one that waits, the nearer is laid and the other waits.
+static inline real lay_nearer(Square* square, real depth, real alpha, real red, real green, real blue)
+{
+    const real other_depth = LOAD(square->held_depth), other_alpha = LOAD(square->held_alpha);
+    const real other_red = LOAD(square->held_red), other_green = LOAD(square->held_green),
+               other_blue = LOAD(square->held_blue);
+    const whole waits = (alpha > 0.0f) & (depth >= other_depth);
+    STORE(select(other_depth, depth, waits), square->held_depth);
+    STORE(select(other_alpha, alpha, waits), square->held_alpha);
+    STORE(select(other_red, red, waits), square->held_red);
+    STORE(select(other_green, green, waits), square->held_green);
+    STORE(select(other_blue, blue, waits), square->held_blue);
+    return lay(square, select(alpha, other_alpha, waits), select(red, other_red, waits),
+               select(green, other_green, waits), select(blue, other_blue, waits));
+}
+#endif
+
 static inline void begin_canvas(Canvas* canvas, global const uint2* picture, global const float* solid, int x0, int y0,
                                 constant RasterFrame* frame)
 {
@@ -98,6 +143,9 @@ static inline void begin_canvas(Canvas* canvas, global const uint2* picture, glo
             }
             else
                 load_square(square, picture, solid, x0 + across * SIDE, y0 + down * SIDE, frame);
+#ifdef HELD
+            hold_none(square);
+#endif
             canvas->open[down] |= (ulong)(greatest(LOAD(square->open)) > CLOSED) << across;
         }
         canvas->open_rows += canvas->open[down] != 0;
@@ -209,12 +257,15 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
                 alpha *= clamp(size - along * inverse + 0.5f, 0.0f, 1.0f);
             else
                 alpha = select((real)(0.0f), alpha, fma((real)(b.s6), right_b, b.s7 * up_from_b) < 0.0f);
-            alpha = select((real)(0.0f), alpha, depth.at + depth.more * u < LOAD(square->solid));
-            const real open = LOAD(square->open), taken = open * alpha, left = open - taken;
-            STORE(left, square->open);
-            STORE(LOAD(square->red) + taken * (red.at + red.more * u), square->red);
-            STORE(LOAD(square->green) + taken * (green.at + green.more * u), square->green);
-            STORE(LOAD(square->blue) + taken * (blue.at + blue.more * u), square->blue);
+            const real far = depth.at + depth.more * u;
+            alpha = select((real)(0.0f), alpha, far < LOAD(square->solid));
+            const real red_here = red.at + red.more * u, green_here = green.at + green.more * u;
+            const real blue_here = blue.at + blue.more * u;
+#ifdef HELD
+            const real left = lay_nearer(square, far, alpha, red_here, green_here, blue_here);
+#else
+            const real left = lay(square, alpha, red_here, green_here, blue_here);
+#endif
             if (greatest(left) <= CLOSED)
             {
                 canvas->open[down] ^= lowest;
@@ -262,5 +313,12 @@ kernel void raster_compose(global const float* points, global const RasterPiece*
             if (is_seen(&canvas, cells[k], band))
                 draw_piece(&canvas, a[k], b[k], rows_of(cells[k], band), x0, y0);
     }
+#ifdef HELD
+    for (int s = 0; s < DOWN * ACROSS; ++s)
+    {
+        Square* square = canvas.square + s;
+        lay(square, LOAD(square->held_alpha), LOAD(square->held_red), LOAD(square->held_green), LOAD(square->held_blue));
+    }
+#endif
     store_canvas(&canvas, picture, x0, y0, frame);
 }

@@ -358,15 +358,57 @@ TEST(Rasteriser, AllWidthsDrawTheSame)
     HairParams params = plain_params();
     params.wave_normal_amplitude = 0.0f;
     params.look_diffuse = params.look_specular = 0.4f;
-    const Pixels wide = Scene(with_width(16), layers(60), params).draw();
-    EXPECT_GT(wide.alpha_sum(), 2000.0);
+    const auto drawn_by = [&](const Device& device, float held_width)
+    {
+        Scene scene(device, layers(60), params);
+        scene.rasteriser.held_width = held_width;
+        return scene.draw();
+    };
     Device as_gpu = with_width(1);
     as_gpu.is_gpu = true; // a row a work-item, groups of many
-    for (const Device& device : {with_width(8), with_width(1), as_gpu})
+    for (const float held_width : {0.0f, 1e9f})
     {
-        const Pixels narrow = Scene(device, layers(60), params).draw();
-        // Powers and roots may round another way, and halves with them.
-        EXPECT_LT(greatest_difference(narrow, wide), 0.004) << device.width << (device.is_gpu ? ", as a GPU" : "");
+        const Pixels wide = drawn_by(with_width(16), held_width);
+        EXPECT_GT(wide.alpha_sum(), 2000.0);
+        for (const Device& device : {with_width(8), with_width(1), as_gpu})
+        {
+            const Pixels narrow = drawn_by(device, held_width);
+            // Powers and roots may round another way, and halves with them.
+            EXPECT_LT(greatest_difference(narrow, wide), 0.004) << device.width << (device.is_gpu ? ", as a GPU" : "");
+        }
+    }
+}
+
+// Two strands along each other, into the depth. Their pieces lie half a piece apart, so that the middles of the farther
+// one's are nearer than those of some that they are hidden by.
+TEST(Rasteriser, StrandsThatLieAlongEachOtherKeepTheirOrder)
+{
+    const auto sloping = [](float from, float behind, glm::vec3 color)
+    {
+        Strand strand;
+        for (int k = 0; k < kNodes; ++k)
+        {
+            const float x = from + 30.0f * float(k), z = kPixel * (x - behind);
+            strand.nodes.emplace_back(kPixel * x * (kDistance - z) / kDistance, 0.0f, z);
+        }
+        strand.width = 20.0f * kPixel;
+        strand.color = color;
+        return strand;
+    };
+    const Strand red = sloping(-90.0f, 0.0f, {1, 0, 0}), blue = sloping(-75.0f, 5.0f, {0, 0, 1});
+    for (const bool red_first : {true, false})
+    {
+        Scene scene(test_device(), red_first ? std::vector<Strand>{red, blue} : std::vector<Strand>{blue, red});
+        const Pixels pixels = scene.draw();
+        int wrong = 0;
+        for (int x = kWidth / 2 - 40; x < kWidth / 2 + 40; ++x)
+            for (int y = kHeight / 2 - 8; y < kHeight / 2 + 8; ++y)
+                wrong += pixels.at(x, y)[2] > 0.01f || pixels.at(x, y)[0] < 0.99f;
+        EXPECT_EQ(wrong, 0);
+        scene.rasteriser.held_width = 1e9f;
+        EXPECT_GT(scene.draw().at(kWidth / 2 + 12, kHeight / 2)[2] + scene.draw().at(kWidth / 2 - 3, kHeight / 2)[2],
+                  0.5f)
+            << "no piece is out of order here";
     }
 }
 
