@@ -1,5 +1,6 @@
 #include "app/ground.h"
 
+#include "app/renderer.h"
 #include "sim/strand_shapes.h"
 
 #include <glm/common.hpp>

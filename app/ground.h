@@ -1,11 +1,13 @@
 // The plain ground under head and hair, for whatever draws or traces it.
 #pragma once
-#include "app/renderer.h"
+#include <glm/vec3.hpp>
 
 #include <optional>
 
 namespace coif
 {
+
+struct FrameInput;
 
 // A disc that faces up, and fades towards its rim. From below there is nothing.
 struct Ground

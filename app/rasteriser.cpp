@@ -42,7 +42,7 @@ static float kept_share(float width, float least_width)
     return least_width > 0.0f ? std::clamp(width / least_width, 0.01f, 1.0f) : 1.0f;
 }
 
-static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view, int chunk_count, float least_width)
+static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view, int chunk_count, float kept)
 {
     RasterFrame frame = {};
     frame.clip_x = row_of(view.view_projection, 0);
@@ -53,7 +53,7 @@ static RasterFrame frame_of(const RasterStrands& strands, const RasterView& view
     frame.near = view.near;
     frame.depth_at_infinity = 0.5f + 0.5f * (view.far + view.near) / (view.far - view.near);
     frame.depth_over = -view.far * view.near / (view.far - view.near);
-    frame.kept = strands.kept * kept_share(mean_width(strands, view), least_width);
+    frame.kept = kept;
     frame.width = view.width;
     frame.height = view.height;
     frame.tiles_x = (view.width + TILE - 1) / TILE;
@@ -144,10 +144,11 @@ try
     pieces_ = 0;
     low_ = glm::ivec2(view.width, view.height);
     high_ = glm::ivec2(0);
-    RasterFrame frame = frame_of(strands, view, chunks(passes_.device), least_width);
+    const float width = mean_width(strands, view);
+    RasterFrame frame = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(width, least_width));
     if (frame.strands == 0)
         return {};
-    held_ = mean_width(strands, view) > held_width;
+    held_ = width > held_width;
     const Groom& groom = strands.solver->groom();
     for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands"})
         passes_.buffers[shared] = strands.solver->buffers().at(shared);

@@ -508,7 +508,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     }
     glEnable(GL_DEPTH_TEST);
     colors_at_ = 0;
-    draw_ground(frame, programs_->ground, eye);
+    draw_ground(programs_->ground, eye);
     draw_solids(frame, eye);
     const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
     if (strands && !rasterised)

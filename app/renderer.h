@@ -1,6 +1,7 @@
 #pragma once
 #include "app/gl.h"
 #include "app/gl_sharing.h"
+#include "app/ground.h"
 #include "app/image.h"
 #include "app/strand_colors.h"
 #include "sim/lights.h"
@@ -135,7 +136,7 @@ class Renderer
     void shade(const FrameInput& frame, glm::vec3 eye);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
-    void draw_ground(const FrameInput& frame, const ShaderProgram& program, glm::vec3 eye);
+    void draw_ground(const ShaderProgram& program, glm::vec3 eye);
     void draw_strands(const FrameInput& frame);
     void compose_strands(const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
@@ -177,11 +178,11 @@ class Renderer
             ground_index_count_ = 0;
     const void* mesh_of_ = nullptr; // which head is uploaded, and with which scale and offset
     std::vector<float> mesh_key_;
-    std::vector<float> ground_;                         // corners, in the world as long as the head has not leapt, m
-    float ground_height_ = 0.0f, ground_radius_ = 0.0f; // m
-    int mesh_facing_ = 0;                               // mesh_order.h
-    float mesh_radius_ = 0.0f;                          // about the head's origin, m, before head.scale
-    float enclosed_ = 0.0f;                             // radius of a ball inside the head, m, before head.scale
+    std::optional<Ground> ground_;
+    std::vector<float> ground_corners_; // in the world as long as the head has not leapt, m
+    int mesh_facing_ = 0;               // mesh_order.h
+    float mesh_radius_ = 0.0f;          // about the head's origin, m, before head.scale
+    float enclosed_ = 0.0f;             // radius of a ball inside the head, m, before head.scale
     std::vector<std::pair<float, unsigned>> order_;
     std::vector<unsigned> indices_;
 };

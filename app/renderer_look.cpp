@@ -45,12 +45,9 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     { return glm::dot(n, n) > 1e-20f ? glm::normalize(n) : glm::vec3(0.0f, 1.0f, 0.0f); };
     const auto triple = [](const std::vector<float>& from, size_t i)
     { return glm::vec3(from[i], from[i + 1], from[i + 2]); };
-    if (frame.params.look_ground != 0)
-    {
-        const glm::vec3 moved(frame.simulation->solver().jumped() - frame.simulation->solver().head().origin);
-        for (size_t i = 0; i < ground_.size(); i += 3)
-            add(triple(ground_, i) + moved, glm::vec3(0.0f, 1.0f, 0.0f), 0.0f, rgb(p.look_background), 0.0f);
-    }
+    if (ground_)
+        for (size_t i = 0; i < ground_corners_.size(); i += 3)
+            add(triple(ground_corners_, i) + ground_->moved, glm::vec3(0.0f, 1.0f, 0.0f), 0.0f, ground_->albedo, 0.0f);
     for (size_t i = 0; i < mesh_vertices_.size(); i += 7)
     {
         const float roots = mesh_vertices_[i + 6];
