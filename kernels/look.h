@@ -22,9 +22,10 @@
 
 // The volume smears hair over two voxels, in dense hair more than light comes through, but what is seen lies where the
 // eye's own ray meets it: light is looked up where that has come through so much optical depth (SEEN), so many voxels
-// further to the sun, and coarse voxels further to the eye for the sky. A place that lies deeper is moved there, one in
-// front of it is not: what is moved is hidden anyway. And hair is no endless stack: behind a fibre that is seen there
-// are so many, then skin or nothing. README.md says on what these were chosen, and how well they do on other hair.
+// further to the sun (fewer the further apart sun and eye are: look_shade.cl), and coarse voxels further to the eye for
+// the sky. A place that lies deeper is moved there, one in front of it is not: what is moved is hidden anyway. And hair
+// is no endless stack: behind a fibre that is seen there are so many, then skin or nothing. README.md says on what
+// these were chosen, and how well they do on other hair.
 #define SEEN 0.7f
 #define OUT_TO_SUN 1.0f
 #define SKY_TO_EYE 0.3f

@@ -61,7 +61,7 @@ LAID_IN real depth_to(global const float* depth, LookRay ray, Points p, constant
 }
 
 // A point in voxels from the first one's middle, moved by so many voxels along a direction.
-static inline Points in_voxels(Points p, float4 direction, float moved, constant LookVolume* volume)
+static inline Points in_voxels(Points p, float4 direction, real moved, constant LookVolume* volume)
 {
     const float4 corner = volume->corner;
     const float inverse = 1.0f / corner.w;

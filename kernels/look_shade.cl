@@ -9,7 +9,10 @@
 // Work-item: a strand; lanes: places along it. Shares of light that one crossing hands on or throws back (Zinke 2008,
 // eq. 6 and 12) are tables over absorption, for the hair's root, middle and tip; a parabola through them serves the
 // places between.
-// Light is looked up where the eye's ray meets the hair (look.h). A fibre sends on light of the inclination that it
+// Light is looked up where the eye's ray meets the hair, and nearer to the sun (look.h): what the eye sees through gaps
+// the sun shines on through the same gaps, where both come from about the same side. How far that is falls as one over
+// the distance of their directions, the hot spot's law (Nilson, Kuusk. A reflectance model for the homogeneous plant
+// canopy and its inversion. 1989), and is no more than OUT_TO_SUN. A fibre sends on light of the inclination that it
 // came with, mirrored: what of the sky is seen in it comes from a cone about it, and where hair stands on end towards
 // the eye that is the skin's side, however bright the sky is.
 #include "look_rays.h"
@@ -191,8 +194,10 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         {
             const LookRay ray = rays[k];
             const float4 l = ray.direction, e = ray.irradiance;
-            const FibreAngles a = fibre_angles(tx * l.x + ty * l.y + tz * l.z, along_eye, ex * l.x + ey * l.y + ez * l.z);
-            const real tau = depth_to(depth + k * all, ray, in_voxels(seen, l, OUT_TO_SUN, volume), volume);
+            const real to_both = ex * l.x + ey * l.y + ez * l.z;
+            const FibreAngles a = fibre_angles(tx * l.x + ty * l.y + tz * l.z, along_eye, to_both);
+            const real out = OUT_TO_SUN * INVERSE_SQRT(fmax(2.0f - 2.0f * to_both, (real)(1.0f)));
+            const real tau = depth_to(depth + k * all, ray, in_voxels(seen, l, out, volume), volume);
             const real straight = open * exp(-tau);
 #if LEVEL == 1
             const Rgb f = karis(fibre, a, absorb, look_frame->roughness);

@@ -301,8 +301,9 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         const Vec l = xyz(ray.direction), e = xyz(ray.irradiance);
         const double disc = ray.direction.w;
         const in_doubles::FibreAngles a = in_doubles::fibre_angles(glm::dot(t, l), glm::dot(t, eye), glm::dot(eye, l));
+        const double out = double(OUT_TO_SUN) / std::max(glm::length(eye - l), 1.0);
         const double tau = depth_at(lit.depth.data() + size_t(i) * voxels_of(lit.volume), lit.volume, ray,
-                                    in_voxels(seen, lit.volume) + double(OUT_TO_SUN) * l);
+                                    in_voxels(seen, lit.volume) + out * l);
         if (level == 1)
         {
             sum += e * std::exp(-tau) * vec(in_doubles::karis(fibre, a, absorbs, f.roughness));
