@@ -26,15 +26,15 @@ static float4 row_of(const glm::mat4& matrix, int row)
     return F4(r.x, r.y, r.z, r.w);
 }
 
-// Pixels that strands are wide on the whole. Hangs on how far the head's middle is, and on nothing that jumps.
-static float mean_width(const RasterStrands& strands, const RasterView& view)
+float mean_width(const Solver& solver, const HairParams& params, glm::vec3 eye, float pixel, float near)
 {
-    const Solver& solver = *strands.solver;
     const glm::vec3 center(solver.head().turn * glm::dvec3(solver.groom().center));
-    const float pixel = view.pixel * std::max(glm::distance(view.eye, center), view.near); // m
-    const float4 along = strands.params.look_width_along;
-    return strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / pixel;
+    const float there = pixel * std::max(glm::distance(eye, center), near); // m
+    const float4 along = params.look_width_along;
+    return params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / there;
 }
+
+float Rasteriser::near_share(float mean_width) const { return std::clamp(mean_width - near_width, 0.0f, 1.0f); }
 
 // Of all strands, that are drawn.
 static float kept_share(float width, float least_width)
@@ -98,6 +98,8 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
     frame.points = points_end - first;
     passes_.room_for("listed", batch.size() * sizeof(RasterStrand));
     passes_.room_for("points", size_t(frame.points) * 8 * sizeof(float));
+    if (near_)
+        passes_.room_for("near_light", size_t(frame.points) * NEAR_LIGHT * sizeof(cl_half));
     write(passes_.device, passes_.buffers["listed"], batch);
     write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame));
     const size_t tiles = size_t(frame.tiles_x) * size_t(frame.tiles_y);
@@ -120,7 +122,8 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
     passes_.room_for("half_sorted", pieces * sizeof(RasterPiece));
     passes_.launch("raster_fill", "", size_t(frame.chunks));
     passes_.launch("raster_sort", "", tiles);
-    passes_.launch("raster_compose", held_ ? "-D HELD" : "", tiles * size_t(TILE / band(passes_.device)));
+    passes_.launch("raster_compose", std::string(held_ ? "-D HELD" : "") + (near_ ? " -D NEAR_FIELD" : ""),
+                   tiles * size_t(TILE / band(passes_.device)));
     frame.later = 1;
     ++batches_;
     pieces_ += pieces;
@@ -144,11 +147,12 @@ try
     pieces_ = 0;
     low_ = glm::ivec2(view.width, view.height);
     high_ = glm::ivec2(0);
-    const float width = mean_width(strands, view);
+    const float width = mean_width(*strands.solver, strands.params, view.eye, view.pixel, view.near);
     RasterFrame frame = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(width, least_width));
     if (frame.strands == 0)
         return {};
     held_ = width > held_width;
+    near_ = strands.shaded && strands.shaded->near > 0.0f && strands.values.empty();
     const Groom& groom = strands.solver->groom();
     for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands"})
         passes_.buffers[shared] = strands.solver->buffers().at(shared);
@@ -184,6 +188,13 @@ try
     {
         options += fmt::format(" -D SHADED={}", strands.shaded->pieces);
         passes_.buffers["shaded"] = strands.shaded->colors;
+        if (near_)
+        {
+            options += " -D NEAR_FIELD";
+            passes_.buffers["straight_light"] = strands.shaded->straight;
+            passes_.buffers["look_frame"] = strands.shaded->frame;
+            passes_.buffers["rays"] = strands.shaded->suns;
+        }
     }
 
     passes_.launch("raster_solids", "", blocks);
@@ -193,7 +204,8 @@ try
     for (int s = 0; s < frame.strands; ++s)
         if (points[size_t(s)] > 0)
             listed.push_back({s, 0});
-    if (std::accumulate(points.begin(), points.end(), size_t(0)) > most_points)
+    const size_t most = near_ ? most_points / 4 : most_points; // each of them holds four times as much
+    if (std::accumulate(points.begin(), points.end(), size_t(0)) > most)
     {
         const std::vector<float> depths = read<float>(passes_.device, passes_.buffers["strand_depth"], count);
         const auto depth = [&](const RasterStrand& s)
@@ -206,7 +218,7 @@ try
         for (; end < listed.size(); ++end)
         {
             const size_t own = size_t(points[size_t(listed[end].strand)]);
-            if (end > begin && sum + own > most_points)
+            if (end > begin && sum + own > most)
                 break;
             listed[end].first = int(sum);
             sum += own;

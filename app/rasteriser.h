@@ -26,7 +26,9 @@ struct RasterView
 struct ShadedStrands
 {
     cl::Buffer colors;
-    int pieces = 1; // on a segment
+    int pieces = 1;                   // on a segment
+    float near = 0.0f;                // the share of light straight from suns that is not in them: near_share()
+    cl::Buffer straight, frame, suns; // what raster_near.h makes it of
 };
 
 // What is drawn: the solver's drawn strands as they lie on its device, and what else tells of them.
@@ -41,6 +43,10 @@ struct RasterStrands
     float kept = 1.0f;                     // share of them that is drawn, each as much wider
     const ShadedStrands* shaded = nullptr; // colours in place of the hair's own, if they are worked out before
 };
+
+// Pixels that strands are wide on the whole. Hangs on how far the head's middle is from the eye (relative to the head's
+// origin, m), and on nothing that jumps. `pixel`, `near`: as RasterView has them.
+float mean_width(const Solver& solver, const HairParams& device_params, glm::vec3 eye, float pixel, float near);
 
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
 struct RasterPicture
@@ -74,6 +80,12 @@ class Rasteriser
     float least_width = 0.25f;
     // Where they are wider than so many, pixels put two strands that lie along each other in order: raster_compose.cl.
     float held_width = 2.0f;
+    // Where they are, it is seen how they are lit from side to side: near_share().
+    float near_width = 3.0f;
+    // Of light that comes straight from suns, the share that is drawn as it is scattered at each place across strands
+    // of such a mean width; the rest is the mean over it. It grows within a pixel more, so that none of it shows at
+    // once.
+    float near_share(float mean_width) const;
     // Numbers that one batch may hold; tests make them small.
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
@@ -83,7 +95,7 @@ class Rasteriser
 
     Passes passes_;
     float* solid_ = nullptr; // mapped, or none
-    bool held_ = false;
+    bool held_ = false, near_ = false;
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span
     size_t pieces_ = 0;

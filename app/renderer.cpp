@@ -478,9 +478,16 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel - lens.y / focus;
     const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
                                               (bottom + float(part.height) * pixel) * near, near, far);
-    shade(frame, eye);
+    const RasterView view = {projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0)),
+                             eye,
+                             pixel,
+                             near,
+                             far,
+                             part.width,
+                             part.height};
+    shade(frame, view);
     FrameBlock block;
-    block.view_projection = projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0));
+    block.view_projection = view.view_projection;
     block.camera_position = F4(eye.x, eye.y, eye.z, pixel);
     block.head_row0 = info.head_row0;
     block.head_row1 = info.head_row1;
@@ -528,8 +535,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
                           GL_COLOR_BUFFER_BIT | (rasterised ? GL_DEPTH_BUFFER_BIT : 0), GL_NEAREST);
     }
     if (strands && rasterised)
-        compose_strands({block.view_projection, eye, pixel, near, far, part.width, part.height},
-                        scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
+        compose_strands(view, scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
 }
 
 // Samples of a choice: auto, off, 2x, 4x, 8x, within what the driver gives.

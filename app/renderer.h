@@ -133,7 +133,7 @@ class Renderer
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame, const std::vector<float>& waves);
     void choose_level(const HairParams& params, const std::vector<char>& of_style);
-    void shade(const FrameInput& frame, glm::vec3 eye);
+    void shade(const FrameInput& frame, const RasterView& view);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
     void draw_ground(const ShaderProgram& program, glm::vec3 eye);

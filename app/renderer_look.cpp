@@ -3,6 +3,7 @@
 #include "app/renderer.h"
 
 #include "app/look_level.h"
+#include "app/rasteriser.h"
 #include "app/renderer_rings.h"
 #include "app/solids.h"
 #include "sim/error.h"
@@ -133,21 +134,26 @@ void Renderer::choose_level(const HairParams& params, const std::vector<char>& o
 }
 
 // Colours as they are seen from the eye, for whatever draws them.
-void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
+void Renderer::shade(const FrameInput& frame, const RasterView& view)
 {
     if (!shaded_)
         return;
+    const glm::vec3 eye = view.eye;
+    const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
+    float near = 0.0f;
+    if (strands && rasterised && rastered_->values.empty())
+        near = rasteriser_->near_share(mean_width(*rastered_->solver, rastered_->params, eye, view.pixel, view.near));
     std::vector<char> from;
     append(from, eye);
     append(from, frame.kept);
+    append(from, near);
     if (from == seen_from_)
         return;
-    const bool strands = frame.params.render_show != 1;
     if (strands)
     {
-        const ShadedStrands& shaded = shading_->shade(eye, look_.level, frame.kept);
+        const ShadedStrands& shaded = shading_->shade(eye, look_.level, frame.kept, near);
         shaded_pieces_ = shaded.pieces;
-        if (method_of(frame.params) == BY_OPENCL)
+        if (rasterised)
             rastered_->shaded = &shaded;
         else
             upload_shades();

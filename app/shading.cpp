@@ -301,7 +301,7 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {} while following the light", e.err(), e.what());
 }
 
-void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces, int stride)
+void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces, int stride, float near)
 {
     LookFrame frame = {};
     frame.eye = F4(eye.x, eye.y, eye.z, kept);
@@ -320,7 +320,10 @@ void Shading::look_at(glm::vec3 eye, float kept, size_t surfaces, int stride)
     frame.surfaces = int(surfaces);
     frame.stride = stride;
     frame.cone = float(mean_on_cone(params_.look_roughness));
+    frame.near = near;
     passes_.fill("look_frame", std::vector<LookFrame>(1, frame));
+    if (near > 0.0f) // it is read when solid things have been lit, too
+        passes_.fill("near_frame", std::vector<LookFrame>(1, frame));
 }
 
 // How far behind what the eye sees each voxel lies, by rays from the volume's middle.
@@ -335,17 +338,27 @@ void Shading::find_front(glm::vec3 eye)
     follow(volume_, "eye_", 1, "-D FRONT");
 }
 
-const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept)
+const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept, float near)
 try
 {
     const size_t strands = size_t(volume_.strands);
-    look_at(eye, kept, 0);
+    shaded_.near = level > LOOK_KARIS && suns_ > 0 ? near : 0.0f;
+    look_at(eye, kept, 0, 1, shaded_.near);
     if (strands > 0)
         find_front(eye);
     shaded_.colors =
         passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
+    std::string options = options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY);
+    if (shaded_.near > 0.0f)
+    {
+        options += " -D NEAR_FIELD";
+        shaded_.straight = passes_.room_for("straight_light", std::max<size_t>(strands, 1) * size_t(volume_.places) *
+                                                                  size_t(suns_) * sizeof(cl_half));
+        shaded_.frame = passes_.buffers["near_frame"];
+        shaded_.suns = passes_.buffers["rays"];
+    }
     if (strands > 0)
-        passes_.launch("look_shade", options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY), strands);
+        passes_.launch("look_shade", options, strands);
     return shaded_;
 }
 catch (const cl::Error& e)

@@ -32,8 +32,9 @@ class Shading
 
     // Follows the light of a scene. Throws Error where the device refuses.
     void light(const LitScene& scene);
-    // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn.
-    const ShadedStrands& shade(glm::vec3 eye, int level, float kept);
+    // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn;
+    // `near`: of the light straight from suns, the share that is left to the rasteriser, at levels above LOOK_KARIS.
+    const ShadedStrands& shade(glm::vec3 eye, int level, float kept, float near = 0.0f);
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
 
@@ -50,7 +51,7 @@ class Shading
     void sweep(const Lighting& lighting);
     void follow(const LookVolume& volume, const std::string& whose, size_t rays, const std::string& what);
     void find_front(glm::vec3 eye);
-    void look_at(glm::vec3 eye, float kept, size_t surfaces, int stride = 1);
+    void look_at(glm::vec3 eye, float kept, size_t surfaces, int stride = 1, float near = 0.0f);
 
     Passes passes_;
     ShadedStrands shaded_;

@@ -165,6 +165,36 @@ CURVE_FUNCTION LobeHeights lobe_heights(Fibre f, FibreAngles a, REAL further)
     return m;
 }
 
+// A place across the fibre, h from its middle in [-1, 1], and how light goes in there (Chiang 2016, eq. 2 to 6).
+STRUCT(FibrePlace)
+{
+    REAL mirrored;          // Fresnel's share
+    REAL way;               // inside, from wall to wall, in radii and below 0: exp(way * absorption) is left
+    REAL through, back;     // azimuths that TT and TRT leave at, but for whole turns
+    REAL wide_tt, wide_trt; // scale of the logistic that covers what `slice` of h turns either lobe by
+};
+
+CURVE_FUNCTION FibrePlace place_across(Fibre f, FibreAngles a, float h, float slice)
+{
+    // Bravais' index of the normal plane (Marschner et al. 2003, section 4.1), and the cosine of the way inside.
+    float slower = 1.0f / (f.ior * f.ior);
+    REAL per_bent = a.co / sqrt(max(f.ior * f.ior - a.so * a.so, 1e-6f));
+    REAL inner = 1.0f / sqrt(max(1.0f - a.so * a.so * slower, 1e-6f));
+    float cos_outer = sqrt(1.0f - h * h), outer = asin(h);
+    REAL sin_inner = h * per_bent, cos_inner = sqrt(max(1.0f - sin_inner * sin_inner, 1e-6f));
+    REAL turn = arc_sine(sin_inner);
+    REAL per_turn = 2.0f * per_bent / cos_inner;
+    float per_outer = 2.0f / cos_outer;
+    FibrePlace p;
+    p.mirrored = fresnel(a.co * cos_outer, f.ior);
+    p.way = -2.0f * cos_inner * inner;
+    p.through = 2.0f * turn - 2.0f * outer + FIBRE_PI;
+    p.back = 4.0f * turn - 2.0f * outer;
+    p.wide_tt = min(0.25f * slice * fabs(per_turn - per_outer), FIBRE_PI);
+    p.wide_trt = min(0.25f * slice * fabs(2.0f * per_turn - per_outer), FIBRE_PI);
+    return p;
+}
+
 // The lobes averaged over the fibre's width, at `nodes` places across it (Chiang 2016, eq. 2 to 6): a strand is thinner
 // than a pixel, so that the place is not known. Each place's azimuthal lobe is widened to cover its own share of the
 // width. `around`: light that has gone through other fibres comes from the whole half plane in front, and so is
@@ -173,10 +203,6 @@ CURVE_FUNCTION LobeHeights lobe_heights(Fibre f, FibreAngles a, REAL further)
 // R needs no places: its average has a closed form, cos(phi / 2) F / 4 (Marschner et al. 2003, eq. 4 with p = 0).
 CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, int nodes, bool around)
 {
-    // Bravais' index of the normal plane (Marschner et al. 2003, section 4.1), and the cosine of the way inside.
-    float slower = 1.0f / (f.ior * f.ior);
-    REAL per_bent = a.co / sqrt(max(f.ior * f.ior - a.so * a.so, 1e-6f));
-    REAL inner = 1.0f / sqrt(max(1.0f - a.so * a.so * slower, 1e-6f));
     float slice = 2.0f / (float)nodes, share = 1.0f / (float)nodes;
     REAL white = m.r * 0.25f * a.cos_half * fresnel(a.co * a.cos_half, f.ior);
     if (around) // cos(phi / 2) / 4 averaged over the half plane; the mean of the angle stands for it in F
@@ -188,40 +214,30 @@ CURVE_FUNCTION Rgb far_field(Fibre f, FibreAngles a, LobeHeights m, Rgb absorb, 
     Rgb sum = rgb(white, white, white);
     for (int i = 0; i < nodes / 2; ++i) // places on both sides alike, but for the sign of the azimuth
     {
-        float h = ((float)i + 0.5f) * slice, cos_outer = sqrt(1.0f - h * h);
-        float outer = asin(h);
-        REAL sin_inner = h * per_bent, cos_inner = sqrt(max(1.0f - sin_inner * sin_inner, 1e-6f));
-        REAL turn = arc_sine(sin_inner);
-        REAL mirrored = fresnel(a.co * cos_outer, f.ior), entering = squared(1.0f - mirrored) * share;
-        REAL way = -2.0f * cos_inner * inner;
-
-        REAL through = 2.0f * turn - 2.0f * outer + FIBRE_PI;
-        REAL back = 4.0f * turn - 2.0f * outer;
-        REAL per_turn = 2.0f * per_bent / cos_inner;
-        float per_outer = 2.0f / cos_outer;
-        REAL s_tt = max(f.logistic, min(0.25f * slice * fabs(per_turn - per_outer), FIBRE_PI));
-        REAL s_trt = max(f.logistic, min(0.25f * slice * fabs(2.0f * per_turn - per_outer), FIBRE_PI));
+        FibrePlace p = place_across(f, a, ((float)i + 0.5f) * slice, slice);
+        REAL mirrored = p.mirrored, entering = squared(1.0f - mirrored) * share;
+        REAL s_tt = max(f.logistic, p.wide_tt), s_trt = max(f.logistic, p.wide_trt);
         REAL n_tt, n_trt;
         if (around)
         {
-            n_tt = (logistic_half(wrapped(a.phi - through), s_tt) + logistic_half(wrapped(a.phi + through), s_tt)) *
+            n_tt = (logistic_half(wrapped(a.phi - p.through), s_tt) + logistic_half(wrapped(a.phi + p.through), s_tt)) *
                    (1.0f / FIBRE_PI);
-            n_trt = (logistic_half(wrapped(a.phi - back), s_trt) + logistic_half(wrapped(a.phi + back), s_trt)) *
+            n_trt = (logistic_half(wrapped(a.phi - p.back), s_trt) + logistic_half(wrapped(a.phi + p.back), s_trt)) *
                     (1.0f / FIBRE_PI);
         }
         else
         {
             REAL per_tt = 1.0f / s_tt, per_trt = 1.0f / s_trt;
             REAL e_tt = exp(-FIBRE_PI * per_tt), e_trt = exp(-FIBRE_PI * per_trt);
-            n_tt =
-                logistics(wrapped(a.phi - through), wrapped(a.phi + through), per_tt) * ((1.0f + e_tt) / (1.0f - e_tt));
-            n_trt =
-                logistics(wrapped(a.phi - back), wrapped(a.phi + back), per_trt) * ((1.0f + e_trt) / (1.0f - e_trt));
+            n_tt = logistics(wrapped(a.phi - p.through), wrapped(a.phi + p.through), per_tt) *
+                   ((1.0f + e_tt) / (1.0f - e_tt));
+            n_trt = logistics(wrapped(a.phi - p.back), wrapped(a.phi + p.back), per_trt) *
+                    ((1.0f + e_trt) / (1.0f - e_trt));
         }
         REAL tt = m.tt * n_tt * entering, trt = m.trt * n_trt * entering * mirrored;
         REAL rest = m.rest * entering * mirrored * mirrored * 2.0f;
         // Each channel's series of further reflections ends in a division; one serves all three.
-        Rgb t = rgb(exp(absorb.r * way), exp(absorb.g * way), exp(absorb.b * way));
+        Rgb t = rgb(exp(absorb.r * p.way), exp(absorb.g * p.way), exp(absorb.b * p.way));
         Rgb under = rgb(1.0f - t.r * mirrored, 1.0f - t.g * mirrored, 1.0f - t.b * mirrored);
         rest /= under.r * under.g * under.b;
         sum.r += t.r * (tt + t.r * (trt + t.r * rest * under.g * under.b));

@@ -1,6 +1,6 @@
 // The colour of each place: what suns and sky bring there, what the fibre makes of it, and what others hand on to it.
-// LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with dual
-// scattering:
+// LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with
+// dual scattering. NEAR_FIELD: some of F D is left to the rasteriser, which is told D.
 //
 //   L = sum over suns of E [D (F + B(s)) + G (F_G(v) + B(s + v))] + sky      (after Zinke 2008, eq. 23 to 27)
 //   D = exp(-tau): light that comes straight; G: light handed on by fibres, wider by v; F, F_G: the fibre for either;
@@ -15,11 +15,8 @@
 // canopy and its inversion. 1989), and is no more than OUT_TO_SUN. A fibre sends on light of the inclination that it
 // came with, mirrored: what of the sky is seen in it comes from a cone about it, and where hair stands on end towards
 // the eye that is the skin's side, however bright the sky is.
+#include "look_fibre.h"
 #include "look_rays.h"
-#include "raster_strand.h"
-
-#define SELECT(no, yes, test) select(no, yes, test)
-#include "fibre.h"
 
 // Rows of `shares` hold, for each of six values, the coefficients of 1, (1 - cos theta)^2 and (1 - cos theta)^5: what
 // one crossing sends forward and backward, the variances of either, what the fibres behind throw back and its variance.
@@ -106,31 +103,22 @@ static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined 
     return c;
 }
 
-kernel void look_shade(global const float4* places, global const StrandLook* looks,
-                       global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
-                       constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
-                       constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
-                       constant LookRay* eye_rays, global const float* eye_depth, global const float* sky,
-                       global const float* shares, global uint2* shaded)
+kernel void look_shade(global const float4* places, global const StrandLook* looks, global const DrawnStrand* strands,
+                       global const float4* braids, global const float* wave_table, constant HairParams* params,
+                       constant LookFrame* look_frame, constant LookVolume* volume, constant LookVolume* coarse_volume,
+                       constant LookRay* rays, global const float* depth, constant LookRay* eye_rays,
+                       global const float* eye_depth, global const float* sky, global const float* shares,
+#ifdef NEAR_FIELD
+                       global ushort* straight_light,
+#endif
+                       global uint2* shaded)
 {
     const int strand = (int)get_global_id(0);
     if (strand >= volume->strands || STRAND_TURN(strand) >= look_frame->eye.w * (1.0f + FADE))
         return;
     const RibbonLook look = look_of(strand, looks, strands, braids, params, look_frame->braided);
-    Fibre fibre;
-    fibre.variance = look_frame->variance;
-    fibre.logistic = look_frame->logistic;
-    fibre.ior = look_frame->ior;
-    fibre.sin_tilt = look_frame->tilts[0].x;
-    fibre.cos_tilt = look_frame->tilts[0].y;
-    fibre.sin_twice_tilt = look_frame->tilts[0].z;
-    fibre.cos_twice_tilt = look_frame->tilts[0].w;
-    fibre.sin_four_tilt = look_frame->tilts[1].x;
-    fibre.cos_four_tilt = look_frame->tilts[1].y;
-
-    // A brighter strand has less pigment: its colour is that of exp(-sqrt(absorption)).
-    const float brightness = FIRST_LANE(brightness_of(params, wave_table, look.laid.own));
-    const float per_log = look_frame->per_log / (brightness * brightness);
+    const Fibre fibre = fibre_of(look_frame);
+    const float per_log = per_log_of(look_frame, FIRST_LANE(brightness_of(params, wave_table, look.laid.own)));
     const float4 root = look.root_color, step_color = look.tip_color - look.root_color;
     ShareCurve curves[3];
     const float4 middle = root + 0.5f * step_color, tip_color = look.tip_color;
@@ -182,9 +170,7 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         const real along_eye = tx * ex + ty * ey + tz * ez;
         const real along = LANES_LOAD(shares_along);
         const real tip = profile_at(params->look_color_along, along);
-        const Rgb absorb = rgb(absorption_of(root.x + step_color.x * tip, per_log),
-                               absorption_of(root.y + step_color.y * tip, per_log),
-                               absorption_of(root.z + step_color.z * tip, per_log));
+        const Rgb absorb = absorption_at(&look, tip, per_log);
         real open = (real)(1.0f);
         if (look.braid.pitch > 0.0f)
             open = braid_at(look.braid, along).w;
@@ -203,6 +189,16 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
             const Rgb f = karis(fibre, a, absorb, look_frame->roughness);
 #else
             Rgb f = far_field(fibre, a, lobe_heights(fibre, a, (real)(l.w)), absorb, look_frame->nodes, false);
+#endif
+#ifdef NEAR_FIELD
+            uint left[WIDTH];
+            LANES_STORE(half_bits(straight), left);
+            global ushort* to =
+                straight_light + ((size_t)strand * (size_t)look_frame->suns + (size_t)k) * (size_t)count;
+            for (int lane = 0; lane < min(WIDTH, count - i); ++lane)
+                to[i + lane] = (ushort)left[lane];
+            const float far = 1.0f - look_frame->near;
+            f = rgb(far * f.r, far * f.g, far * f.b);
 #endif
 #if LEVEL == 3
             const Inclined at = inclined(a.ci);

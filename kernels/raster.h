@@ -65,6 +65,11 @@ typedef struct RasterPiece
 
 #define CELL 4 // pixels a side
 
+// Across a strand, from its right to its left as it runs up the picture, that light is told apart in where strands are
+// wide (NEAR_FIELD), and so many halves of a point: red of each, green, blue.
+#define NEAR_CELLS 16
+#define NEAR_LIGHT (3 * NEAR_CELLS)
+
 #ifdef __cplusplus
 } // namespace coif
 #else

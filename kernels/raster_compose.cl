@@ -5,8 +5,9 @@
 // to the bit for either, so that no pixel of a strand is covered twice or missed. Along whichever of rows and columns
 // cross it, a ribbon covers each pixel by what it shares with it, which adds up to its area however thin it is.
 //
-// Pieces are in order by their middles' depth. Where they are wide (HELD) that order shows: of two strands that lie along
-// each other now one is in front, now the other. There one layer waits at each pixel, so that the next may go before it.
+// Pieces are in order by their middles' depth. Where they are wide (HELD) that order shows: of two strands that lie
+// along each other now one is in front, now the other. There one layer waits at each pixel, so that the next may go
+// before it. And it is seen how they are lit from side to side (NEAR_FIELD).
 #include "raster.h"
 
 #if WIDTH == 1
@@ -17,6 +18,8 @@ typedef uint bits;
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
 #define AS_BITS(v) as_uint(v)
+#define TO_WHOLE(v) ((int)(v))
+#define TO_REAL(v) ((float)(v))
 #define PIXEL_X 0.5f
 #define PIXEL_Y 0.5f
 static inline float greatest(real v) { return v; }
@@ -28,6 +31,8 @@ typedef uint16 bits;
 #define LOAD(p) vload16(0, p)
 #define STORE(v, p) vstore16(v, 0, p)
 #define AS_BITS(v) as_uint16(v)
+#define TO_WHOLE(v) convert_int16(v)
+#define TO_REAL(v) convert_float16(v)
 #define PIXEL_X                                                                                                        \
     ((float16)(0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f))
 #define PIXEL_Y                                                                                                        \
@@ -39,6 +44,13 @@ static inline float greatest(real v)
     const float2 in2 = max(in4.lo, in4.hi);
     return max(in2.x, in2.y);
 }
+#endif
+
+#ifdef NEAR_FIELD
+#include "raster_across.h"
+#define WITH_LIGHT(light) , light
+#else
+#define WITH_LIGHT(light)
 #endif
 
 #define ACROSS (TILE / SIDE)
@@ -210,7 +222,8 @@ static inline bool is_seen(const Canvas* canvas, int cells, int band)
     return open & (~0ul >> (63 - last)) & (~0ul << first);
 }
 
-static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int x0, int y0)
+static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int x0,
+                              int y0 WITH_LIGHT(global const ushort* near_light))
 {
     const float ax = a.s0 - (float)x0, ay = a.s1 - (float)y0, bx = b.s0 - (float)x0, by = b.s1 - (float)y0;
     const float reach = 0.5f * max(a.s3, b.s3) + 0.5f;
@@ -227,6 +240,11 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
     const Span opacity = span(from_half(bo_a >> 16), from_half(bo_b >> 16));
     const Span red = span(from_half(rg_a), from_half(rg_b)), green = span(from_half(rg_a >> 16), from_half(rg_b >> 16)),
                blue = span(from_half(bo_a), from_half(bo_b)), depth = span(a.s2, b.s2);
+#ifdef NEAR_FIELD
+    Across near_a, near_b;
+    load_across(near_light, &near_a);
+    load_across(near_light + NEAR_LIGHT, &near_b);
+#endif
     const bool steep = fabs(nx) > 1e-3f;
     const float slant = steep ? ny / nx : 0.0f, wide = steep ? reach / fabs(nx) : 1e9f;
     for (int down = rows.x; down <= rows.y; ++down)
@@ -245,7 +263,7 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
             const real right_a = x - ax, up_from_a = y - ay, right_b = x - bx, up_from_b = y - by;
             const real along = right_a * dx + up_from_a * dy;
             const real u = clamp(along * (inverse * inverse), 0.0f, 1.0f);
-            const real off = fabs(right_a * (nx * crossing) + up_from_a * (ny * crossing));
+            const real aside = right_a * (nx * crossing) + up_from_a * (ny * crossing), off = fabs(aside);
             const real wide_here = width.at + width.more * u;
             real alpha = clamp(0.5f * wide_here + 0.5f - off, (real)(0.0f), min(wide_here, 1.0f)) *
                          (opacity.at + opacity.more * u);
@@ -259,8 +277,18 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
                 alpha = select((real)(0.0f), alpha, fma((real)(b.s6), right_b, b.s7 * up_from_b) < 0.0f);
             const real far = depth.at + depth.more * u;
             alpha = select((real)(0.0f), alpha, far < LOAD(square->solid));
-            const real red_here = red.at + red.more * u, green_here = green.at + green.more * u;
-            const real blue_here = blue.at + blue.more * u;
+#ifdef NEAR_FIELD
+            if (!(greatest(alpha) > 0.0f))
+                continue;
+#endif
+            real red_here = red.at + red.more * u, green_here = green.at + green.more * u;
+            real blue_here = blue.at + blue.more * u;
+#ifdef NEAR_FIELD
+            const Stretch seen = stretch_across(aside, wide_here);
+            red_here += mix(light_in(&near_a, 0, seen), light_in(&near_b, 0, seen), u);
+            green_here += mix(light_in(&near_a, 1, seen), light_in(&near_b, 1, seen), u);
+            blue_here += mix(light_in(&near_a, 2, seen), light_in(&near_b, 2, seen), u);
+#endif
 #ifdef HELD
             const real left = lay_nearer(square, far, alpha, red_here, green_here, blue_here);
 #else
@@ -276,7 +304,11 @@ static inline void draw_piece(Canvas* canvas, float8 a, float8 b, int2 rows, int
 }
 
 kernel void raster_compose(global const float* points, global const RasterPiece* binned, global const int* tile_begin,
-                           global const float* solid, constant RasterFrame* frame, global uint2* picture)
+                           global const float* solid, constant RasterFrame* frame,
+#ifdef NEAR_FIELD
+                           global const ushort* near_light,
+#endif
+                           global uint2* picture)
 {
     const int tile = get_global_id(0) / (TILE / BAND), band = get_global_id(0) % (TILE / BAND);
     if (tile >= frame->tiles_x * frame->tiles_y)
@@ -300,6 +332,9 @@ kernel void raster_compose(global const float* points, global const RasterPiece*
     {
         float8 a[AHEAD], b[AHEAD];
         int cells[AHEAD], count = 0;
+#ifdef NEAR_FIELD
+        global const ushort* light[AHEAD];
+#endif
         for (; i < end && count < AHEAD; ++i)
         {
             const RasterPiece piece = binned[i];
@@ -307,17 +342,21 @@ kernel void raster_compose(global const float* points, global const RasterPiece*
                 continue;
             a[count] = vload8(piece.point, points);
             b[count] = vload8(piece.point + 1, points);
+#ifdef NEAR_FIELD
+            light[count] = near_light + (size_t)piece.point * NEAR_LIGHT;
+#endif
             cells[count++] = piece.cells;
         }
         for (int k = 0; k < count; ++k)
             if (is_seen(&canvas, cells[k], band))
-                draw_piece(&canvas, a[k], b[k], rows_of(cells[k], band), x0, y0);
+                draw_piece(&canvas, a[k], b[k], rows_of(cells[k], band), x0, y0 WITH_LIGHT(light[k]));
     }
 #ifdef HELD
     for (int s = 0; s < DOWN * ACROSS; ++s)
     {
         Square* square = canvas.square + s;
-        lay(square, LOAD(square->held_alpha), LOAD(square->held_red), LOAD(square->held_green), LOAD(square->held_blue));
+        lay(square, LOAD(square->held_alpha), LOAD(square->held_red), LOAD(square->held_green),
+            LOAD(square->held_blue));
     }
 #endif
     store_canvas(&canvas, picture, x0, y0, frame);

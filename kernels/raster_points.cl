@@ -4,6 +4,9 @@
 // would come next is guessed from the three places there (a parabola), and marked as no point.
 #define ROOM ((NODES - 2) * (MOST_PIECES + 3) + 2 * WIDTH + 2)
 #include "strand_places.h"
+#ifdef NEAR_FIELD
+#include "raster_near.h"
+#endif
 
 // All places in their order; where a run begins or ends, `t` is no number.
 static inline void list_places(global const uchar* pieces, int strand, Places* at)
@@ -106,6 +109,10 @@ kernel void raster_points(global const float4* drawn_position, global const floa
 #ifdef SHADED
                           global const uint2* shaded,
 #endif
+#ifdef NEAR_FIELD
+                          constant LookFrame* look_frame, constant LookRay* rays, global const ushort* straight_light,
+                          global ushort* near_light,
+#endif
                           constant HairParams* params, constant RasterFrame* frame, global const uchar* pieces,
                           global const RasterStrand* listed, global float* points)
 {
@@ -130,6 +137,9 @@ kernel void raster_points(global const float4* drawn_position, global const floa
 #endif
     const float half_width = 0.5f * (float)frame->width, half_height = 0.5f * (float)frame->height;
     const float wider = widening(own.strand, frame);
+#ifdef NEAR_FIELD
+    const float per_log = per_log_of(look_frame, FIRST_LANE(brightness_of(params, wave_table, look.laid.own)));
+#endif
 #ifdef VALUES
     float of_node[NODE_ROOM];
     for (int k = 0; k < NODE_ROOM; ++k)
@@ -162,16 +172,26 @@ kernel void raster_points(global const float4* drawn_position, global const floa
 #elif defined(SHADED) // SHADED places a segment have been: linear between them
         const real at_place = (TO_REAL(numbers - 1) + t) * (float)SHADED;
         const whole place = min(TO_WHOLE(at_place), (whole)((NODES - 2) * SHADED - 1));
-        const Reals told = shaded_at(shaded + own.strand * ((NODES - 2) * SHADED + 1), place, at_place - TO_REAL(place));
+        const Reals told =
+            shaded_at(shaded + own.strand * ((NODES - 2) * SHADED + 1), place, at_place - TO_REAL(place));
         red = told.x;
         green = told.y;
         blue = told.z;
+#ifdef NEAR_FIELD
+        real ex = eye.x - x, ey = eye.y - y, ez = eye.z - z;
+        const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
+        const int shaded_places = (NODES - 2) * SHADED + 1;
+        store_near(reals(tx, ty, tz, t), reals(ex * near_eye, ey * near_eye, ez * near_eye, t),
+                   absorption_at(&look, profile_at(params->look_color_along, along), per_log),
+                   straight_light + (size_t)own.strand * (size_t)(look_frame->suns * shaded_places), shaded_places,
+                   place, at_place - TO_REAL(place), look_frame, rays, min(WIDTH, at.count - 1 - i),
+                   near_light + (size_t)(own.first + i - 1) * NEAR_LIGHT);
+#endif
 #else
         const real ex = eye.x - x, ey = eye.y - y, ez = eye.z - z;
         const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
-        const Reals fibre =
-            kajiya_kay(params, wave_table, tx * to_light.x + ty * to_light.y + tz * to_light.z,
-                       (tx * ex + ty * ey + tz * ez) * near_eye, light);
+        const Reals fibre = kajiya_kay(params, wave_table, tx * to_light.x + ty * to_light.y + tz * to_light.z,
+                                       (tx * ex + ty * ey + tz * ez) * near_eye, light);
         const real tip = profile_at(params->look_color_along, along);
         const float4 from = look.root_color, to = look.tip_color - look.root_color;
         red = scattered(fibre, (from.x + to.x * tip) * brightness, light * sun.x);
@@ -206,8 +226,8 @@ kernel void raster_points(global const float4* drawn_position, global const floa
         const real short_by = INVERSE_SQRT(fmax(mx * mx + my * my, (real)(1e-20f)));
         mx *= short_by;
         my *= short_by;
-        const real width = fmax(wider * ribbon_width(params, wave_table, look.width, along), (real)(0.0f)) *
-                           inverse * (1.0f / eye.w);
+        const real width =
+            fmax(wider * ribbon_width(params, wave_table, look.width, along), (real)(0.0f)) * inverse * (1.0f / eye.w);
         there &= (fabs(screen_x) < 1e6f) & (fabs(screen_y) < 1e6f) & (width < 1e6f) & (mx == mx) & (my == my) &
                  (red + green + blue + opacity < 1e9f);
 
@@ -226,9 +246,9 @@ kernel void raster_points(global const float4* drawn_position, global const floa
             const bool last = isnan(at.t[i + lane + 1]);
             const uint marks = (last ? MARK_LAST : 0) | (last && segment[lane] == NODES - 2 ? MARK_TIP : 0);
             const uint root = segment[lane] == 1 && isnan(at.t[i + lane - 1]) ? MARK_ROOT : 0;
-            const float8 point = (float8)(stored[0][lane], stored[1][lane], stored[2][lane], stored[3][lane],
-                                          as_float(rg[lane] | root), as_float(bo[lane] | marks), stored[4][lane],
-                                          stored[5][lane]);
+            const float8 point =
+                (float8)(stored[0][lane], stored[1][lane], stored[2][lane], stored[3][lane], as_float(rg[lane] | root),
+                         as_float(bo[lane] | marks), stored[4][lane], stored[5][lane]);
             vstore8(point, own.first + i - 1 + lane, points);
         }
     }

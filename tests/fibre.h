@@ -1,4 +1,4 @@
-// kernels/fibre.h, the very text, for the tests: in floats, as kernels have it, and in doubles, to tell rounding from
+// kernels/fibre.h and near_field.h, the very text, for the tests: in floats, as kernels have it, and in doubles, to tell rounding from
 // error.
 #pragma once
 #include <cmath>
@@ -14,11 +14,12 @@ inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
 #define REAL float
-#include "kernels/fibre.h"
+#include "kernels/near_field.h"
 #undef REAL
 } // namespace coif::in_floats
 
 #undef COIF_FIBRE_H
+#undef COIF_NEAR_FIELD_H
 #undef FIBRE_PI
 
 namespace coif::in_doubles
@@ -28,6 +29,6 @@ inline double min(double a, double b) { return a < b ? a : b; }
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double clamp(double x, double low, double high) { return min(max(x, low), high); }
 #define REAL double
-#include "kernels/fibre.h"
+#include "kernels/near_field.h"
 #undef REAL
 } // namespace coif::in_doubles

@@ -268,6 +268,12 @@ struct Shares
     }
 };
 
+static in_doubles::Fibre fibre_of(const LookFrame& f)
+{
+    return {f.variance,   f.logistic,   f.ior,        f.tilts[0].x, f.tilts[0].y,
+            f.tilts[0].z, f.tilts[0].w, f.tilts[1].x, f.tilts[1].y};
+}
+
 Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, int level)
 {
     const int count = lit.volume.places;
@@ -287,8 +293,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
     };
     const in_doubles::Rgb absorbs = {absorb(color.x), absorb(color.y), absorb(color.z)};
     const LookFrame& f = lit.frame;
-    const in_doubles::Fibre fibre = {f.variance,   f.logistic,   f.ior,        f.tilts[0].x, f.tilts[0].y,
-                                     f.tilts[0].z, f.tilts[0].w, f.tilts[1].x, f.tilts[1].y};
+    const in_doubles::Fibre fibre = fibre_of(f);
     const auto vec = [](const in_doubles::Rgb& c) { return Vec(c.r, c.g, c.b); };
 
     const Vec to_eye = xyz(lit.eye_ray.direction);
@@ -310,6 +315,7 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
             continue;
         }
         const Vec own =
+            (1.0 - double(f.near)) *
             vec(in_doubles::far_field(fibre, a, in_doubles::lobe_heights(fibre, a, disc), absorbs, f.nodes, false));
         if (level == 2)
         {
@@ -352,6 +358,36 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
         sum[c] += xyz(f.sky)[c] * ((backward + behind) * left.front[channel] + forward * left.behind[channel]);
     }
     return sum;
+}
+
+Vec near_light(const Lit& lit, Vec p, Vec tangent, Vec absorption, const std::vector<double>& straight, double from,
+               double to)
+{
+    const Vec eye = glm::normalize(xyz(lit.frame.eye) - p);
+    const LookFrame& f = lit.frame;
+    const in_doubles::Fibre fibre = fibre_of(f);
+    Vec sum(0.0);
+    for (int cell = 0; cell < NEAR_CELLS; ++cell)
+    {
+        const double begin = -1.0 + 2.0 * cell / NEAR_CELLS, end = begin + 2.0 / NEAR_CELLS;
+        const double seen = std::max(0.0, std::min(to, end) - std::max(from, begin)) / (to - from);
+        for (size_t k = 0; k < lit.rays.size(); ++k)
+        {
+            const Vec l = xyz(lit.rays[k].direction), e = xyz(lit.rays[k].irradiance);
+            in_doubles::FibreAngles a =
+                in_doubles::fibre_angles(glm::dot(tangent, l), glm::dot(tangent, eye), glm::dot(l, eye));
+            // As the tracer has it: h is the cosine to the right of the eye's way, across the strand.
+            const Vec other = glm::normalize(glm::cross(eye, tangent));
+            a.phi = std::copysign(a.phi, glm::dot(l, other));
+            const double wide = lit.rays[k].direction.w;
+            const in_doubles::Rgb found = in_doubles::near_field(
+                in_doubles::near_place(fibre, a, {absorption.x, absorption.y, absorption.z},
+                                       float(-0.5 * (begin + end)), 2.0f / NEAR_CELLS),
+                in_doubles::lobe_heights(fibre, a, wide), a.phi, in_doubles::logistic_of(fibre, a, float(wide)));
+            sum += seen * straight[k] * e * Vec(found.r, found.g, found.b);
+        }
+    }
+    return double(f.near) * sum;
 }
 
 // The share of a sun's light at a point, by channel: the mean over four points a voxel off, across the light.

@@ -69,6 +69,11 @@ struct Lit
 // Radiance of place `k` of a strand, at LEVEL as kernels/look_shade.cl has it.
 Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, int level);
 
+// What a strand's point sends to the eye of the light straight from the suns, of which it gets a share of each: the
+// mean over its width from `from` to `to`, -1 to 1 from its right to its left as it runs up (kernels/raster_across.h).
+Vec near_light(const Lit& lit, Vec p, Vec tangent, Vec absorption, const std::vector<double>& straight, double from,
+               double to);
+
 Vec lit_surface(const Lit& lit, const LookSurface& surface);
 
 } // namespace coif::oracle
