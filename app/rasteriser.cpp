@@ -204,8 +204,7 @@ try
     for (int s = 0; s < frame.strands; ++s)
         if (points[size_t(s)] > 0)
             listed.push_back({s, 0});
-    const size_t most = near_ ? most_points / 4 : most_points; // each of them holds four times as much
-    if (std::accumulate(points.begin(), points.end(), size_t(0)) > most)
+    if (std::accumulate(points.begin(), points.end(), size_t(0)) > most_points)
     {
         const std::vector<float> depths = read<float>(passes_.device, passes_.buffers["strand_depth"], count);
         const auto depth = [&](const RasterStrand& s)
@@ -218,7 +217,7 @@ try
         for (; end < listed.size(); ++end)
         {
             const size_t own = size_t(points[size_t(listed[end].strand)]);
-            if (end > begin && sum + own > most)
+            if (end > begin && sum + own > most_points)
                 break;
             listed[end].first = int(sum);
             sum += own;

@@ -342,7 +342,8 @@ const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept, float 
 try
 {
     const size_t strands = size_t(volume_.strands);
-    shaded_.near = level > LOOK_KARIS && suns_ > 0 ? near : 0.0f;
+    const size_t lit_places = std::max<size_t>(strands, 1) * size_t(volume_.places) * size_t(suns_);
+    shaded_.near = level > LOOK_KARIS && suns_ > 0 && lit_places <= most_lit_places ? near : 0.0f;
     look_at(eye, kept, 0, 1, shaded_.near);
     if (strands > 0)
         find_front(eye);
@@ -352,8 +353,7 @@ try
     if (shaded_.near > 0.0f)
     {
         options += " -D NEAR_FIELD";
-        shaded_.straight = passes_.room_for("straight_light", std::max<size_t>(strands, 1) * size_t(volume_.places) *
-                                                                  size_t(suns_) * sizeof(cl_half));
+        shaded_.straight = passes_.room_for("straight_light", lit_places * sizeof(cl_half));
         shaded_.frame = passes_.buffers["near_frame"];
         shaded_.suns = passes_.buffers["rays"];
     }

@@ -46,6 +46,9 @@ class Shading
     const LookVolume& volume() const { return volume_; }
     PassTimes take_times() { return passes_.take_times(); }
 
+    // Places times suns up to which light is left to the rasteriser, in two bytes each; tests make it small.
+    size_t most_lit_places = size_t(1) << 27;
+
   private:
     void place_volume(const LitScene& scene);
     void sweep(const Lighting& lighting);

@@ -5,27 +5,55 @@
 #define COIF_NEAR_FIELD_H
 #include "fibre.h"
 
-// What of a place hangs not on the light: what is left of it in each lobe, where that leaves and how wide it is at
-// least, so that it covers a `slice` of h.
+// A logistic cut off at half a turn to either side (Chiang 2016, eq. 8 to 10): one over its scale, and four times its
+// height. Of two the wider is the lower one.
+STRUCT(LobeWidth) { REAL inverse, height; };
+
+CURVE_FUNCTION LobeWidth lobe_width(REAL s)
+{
+    LobeWidth of;
+    of.inverse = 1.0f / max(s, 1e-4f);
+    REAL w = exp(-FIBRE_PI * of.inverse);
+    of.height = of.inverse * (1.0f + w) / (1.0f - w);
+    return of;
+}
+
+CURVE_FUNCTION REAL lobe_at(REAL x, LobeWidth a, LobeWidth b)
+{
+    REAL e = exp(-fabs(wrapped(x)) * min(a.inverse, b.inverse));
+    return min(a.height, b.height) * e / squared(1.0f + e);
+}
+
+// The share of it that lies below x; further turns of x count further lobes.
+CURVE_FUNCTION REAL lobe_below(REAL x, LobeWidth of)
+{
+    REAL turns = floor(x * (0.5f / FIBRE_PI) + 0.5f), y = x - 2.0f * FIBRE_PI * turns;
+    REAL e = exp(-fabs(y) * of.inverse), half_share = 0.5f * of.height / of.inverse * (1.0f - e) / (1.0f + e);
+    return turns + SELECT(-half_share, half_share, y > 0.0f);
+}
+
+// What of a `slice` of h about a place hangs not on the light: what is left of it in each lobe, where that leaves, and
+// how wide it is at least, so that it covers the slice. R leaves from one azimuth to another.
 STRUCT(NearPlace)
 {
-    REAL r;
     Rgb tt, trt, rest;
-    REAL phi_tt, phi_trt, wide_r, wide_tt, wide_trt;
-    float phi_r;
+    REAL phi_tt, phi_trt;
+    LobeWidth wide_tt, wide_trt;
+    float begin_r, end_r, per_slice;
 };
 
 CURVE_FUNCTION NearPlace near_place(Fibre f, FibreAngles a, Rgb absorb, float h, float slice)
 {
     FibrePlace p = place_across(f, a, h, slice);
     NearPlace n;
-    n.r = p.mirrored;
-    n.phi_r = -2.0f * asin(h);
+    float high = h + 0.5f * slice, low = h - 0.5f * slice;
+    n.begin_r = -2.0f * asin(high < 1.0f ? high : 1.0f);
+    n.end_r = -2.0f * asin(low > -1.0f ? low : -1.0f);
+    n.per_slice = 2.0f / slice;
     n.phi_tt = p.through;
     n.phi_trt = p.back;
-    n.wide_r = min(0.5f * slice / sqrt(1.0f - h * h), FIBRE_PI);
-    n.wide_tt = p.wide_tt;
-    n.wide_trt = p.wide_trt;
+    n.wide_tt = lobe_width(p.wide_tt);
+    n.wide_trt = lobe_width(p.wide_trt);
     REAL entering = squared(1.0f - p.mirrored);
     Rgb t = rgb(exp(absorb.r * p.way), exp(absorb.g * p.way), exp(absorb.b * p.way));
     n.tt = rgb(t.r * entering, t.g * entering, t.b * entering);
@@ -36,29 +64,41 @@ CURVE_FUNCTION NearPlace near_place(Fibre f, FibreAngles a, Rgb absorb, float h,
     return n;
 }
 
-// Cut off at half a turn to either side.
-CURVE_FUNCTION REAL trimmed_logistic(REAL x, REAL s)
+// What of a light hangs not on the place: the longitudinal heights of its lobes, all of R, and the width of the
+// azimuthal ones.
+STRUCT(NearLight)
 {
-    REAL inverse_s = 1.0f / s, e = exp(-fabs(wrapped(x)) * inverse_s), w = exp(-FIBRE_PI * inverse_s);
-    return inverse_s * e * (1.0f + w) / (squared(1.0f + e) * (1.0f - w));
+    REAL reflected, tt, trt, rest, phi;
+    LobeWidth own;
+};
+
+// `a`, but that phi is counted from the eye to the light, and positive where that is on the side of h below 0.
+// `variance`: of LookRay, the square of the light's radius r, which about the fibre is wider by 1 / cos. A logistic of
+// scale pi / 8 r is as high in its middle, 2 / (pi r), as a disc.
+CURVE_FUNCTION NearLight near_light(Fibre f, FibreAngles a, float variance)
+{
+    REAL s = min(sqrt(f.logistic * f.logistic + 0.154212569f * variance / (a.ci * a.ci)), FIBRE_PI);
+    REAL wide = variance;
+    LobeHeights m = lobe_heights(f, a, wide);
+    // As far_field() has it, but that where it grazes its lobe's width keeps it off the very edge.
+    REAL cosine = max(a.cos_half, min(0.7f * s, 1.0f));
+    NearLight l;
+    l.reflected = m.r * 0.25f * cosine * fresnel(a.co * cosine, f.ior);
+    l.tt = m.tt;
+    l.trt = m.trt;
+    l.rest = m.rest;
+    l.phi = a.phi;
+    l.own = lobe_width(s);
+    return l;
 }
 
-// `phi` from the eye to the light, positive where the light is on the side of h below 0; `s`: scale of the azimuthal
-// lobes.
-CURVE_FUNCTION Rgb near_field(NearPlace p, LobeHeights m, REAL phi, REAL s)
+CURVE_FUNCTION Rgb near_field(NearPlace p, NearLight l)
 {
-    REAL r = m.r * p.r * trimmed_logistic(phi - p.phi_r, max(s, p.wide_r));
-    REAL tt = m.tt * trimmed_logistic(phi - p.phi_tt, max(s, p.wide_tt));
-    REAL trt = m.trt * trimmed_logistic(phi - p.phi_trt, max(s, p.wide_trt));
-    return rgb(r + tt * p.tt.r + trt * p.trt.r + m.rest * p.rest.r, r + tt * p.tt.g + trt * p.trt.g + m.rest * p.rest.g,
-               r + tt * p.tt.b + trt * p.trt.b + m.rest * p.rest.b);
-}
-
-// Scale of the azimuthal lobes of a light that is as wide as `variance` tells (of LookRay): the square of its radius r,
-// which about the fibre is wider by 1 / cos. A logistic of pi / 8 r is as high in its middle, 2 / (pi r), as a disc.
-CURVE_FUNCTION REAL logistic_of(Fibre f, FibreAngles a, float variance)
-{
-    return min(sqrt(f.logistic * f.logistic + 0.154212569f * variance / (a.ci * a.ci)), FIBRE_PI);
+    REAL r = l.reflected * p.per_slice * (lobe_below(l.phi - p.begin_r, l.own) - lobe_below(l.phi - p.end_r, l.own));
+    REAL tt = l.tt * lobe_at(l.phi - p.phi_tt, l.own, p.wide_tt);
+    REAL trt = l.trt * lobe_at(l.phi - p.phi_trt, l.own, p.wide_trt);
+    return rgb(r + tt * p.tt.r + trt * p.trt.r + l.rest * p.rest.r, r + tt * p.tt.g + trt * p.trt.g + l.rest * p.rest.g,
+               r + tt * p.tt.b + trt * p.trt.b + l.rest * p.rest.b);
 }
 
 #endif

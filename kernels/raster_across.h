@@ -13,14 +13,15 @@ static inline void load_across(global const ushort* near_light, Across* across)
 {
     for (int c = 0; c < 3; ++c)
     {
-        float sum = 0.0f;
-        for (int cell = 0; cell < NEAR_CELLS; ++cell)
-        {
-            const float in = from_half(near_light[c * NEAR_CELLS + cell]);
-            across->in[c][cell] = in;
-            across->before[c][cell] = sum;
-            sum += in;
-        }
+        const uint16 halves = convert_uint16(vload16(c, near_light));
+        const float16 in = as_float16((halves & 0x7fffu) << 13) * 5.19229686e33f; // from_half()
+        float16 sum = in;
+        sum += (float16)(0.0f, sum.s012, sum.s3456, sum.s789a, sum.sbcd, sum.se);
+        sum += (float16)(0.0f, 0.0f, sum.s01, sum.s2345, sum.s6789, sum.sab, sum.scd);
+        sum += (float16)((float4)(0.0f), sum.s0123, sum.s4567, sum.s89ab);
+        sum += (float16)((float8)(0.0f), sum.lo);
+        vstore16(in, 0, across->in[c]);
+        vstore16(sum - in, 0, across->before[c]);
     }
 }
 

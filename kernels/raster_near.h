@@ -24,7 +24,7 @@ static inline real straight_at(global const ushort* straight, whole first, real 
 // which those of the next sun are `stride` from. `count` points are stored.
 static inline void store_near(Reals tangent, Reals eye, Rgb absorb, global const ushort* straight, int stride,
                               whole first, real share, constant LookFrame* look_frame, constant LookRay* rays,
-                              int count, global ushort* near_light)
+                              int count, global ushort* to)
 {
     const Fibre fibre = fibre_of(look_frame);
     const real along_eye = tangent.x * eye.x + tangent.y * eye.y + tangent.z * eye.z;
@@ -43,14 +43,14 @@ static inline void store_near(Reals tangent, Reals eye, Rgb absorb, global const
     for (int k = 0; k < look_frame->suns; ++k)
     {
         const float4 l = rays[k].direction, e = rays[k].irradiance * look_frame->near;
-        const FibreAngles a = fibre_angles(tangent.x * l.x + tangent.y * l.y + tangent.z * l.z, along_eye,
-                                           eye.x * l.x + eye.y * l.y + eye.z * l.z);
-        const real phi = select(a.phi, -a.phi, sx * l.x + sy * l.y + sz * l.z < 0.0f);
-        const LobeHeights m = lobe_heights(fibre, a, (real)(l.w));
-        const real s = logistic_of(fibre, a, l.w), lit = straight_at(straight + k * stride, first, share);
+        FibreAngles a = fibre_angles(tangent.x * l.x + tangent.y * l.y + tangent.z * l.z, along_eye,
+                                     eye.x * l.x + eye.y * l.y + eye.z * l.z);
+        a.phi = select(a.phi, -a.phi, sx * l.x + sy * l.y + sz * l.z < 0.0f);
+        const NearLight light = near_light(fibre, a, l.w);
+        const real lit = straight_at(straight + k * stride, first, share);
         for (int cell = 0; cell < NEAR_CELLS; ++cell)
         {
-            const Rgb f = near_field(cells[cell], m, phi, s);
+            const Rgb f = near_field(cells[cell], light);
             sums[cell].r += e.x * lit * f.r;
             sums[cell].g += e.y * lit * f.g;
             sums[cell].b += e.z * lit * f.b;
@@ -64,7 +64,7 @@ static inline void store_near(Reals tangent, Reals eye, Rgb absorb, global const
         LANES_STORE(half_bits(sums[cell].b), b);
         for (int lane = 0; lane < count; ++lane)
         {
-            global ushort* point = near_light + lane * NEAR_LIGHT + cell;
+            global ushort* point = to + lane * NEAR_LIGHT + cell;
             point[0] = (ushort)r[lane];
             point[NEAR_CELLS] = (ushort)g[lane];
             point[2 * NEAR_CELLS] = (ushort)b[lane];

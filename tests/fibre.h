@@ -1,5 +1,5 @@
-// kernels/fibre.h and near_field.h, the very text, for the tests: in floats, as kernels have it, and in doubles, to tell rounding from
-// error.
+// kernels/fibre.h and near_field.h, the very text, for the tests: in floats, as kernels have it, and in doubles, to
+// tell rounding from error.
 #pragma once
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace coif::in_floats
 {
-using std::asin, std::exp, std::fabs, std::floor, std::log, std::sqrt;
+using std::asin, std::cos, std::exp, std::fabs, std::floor, std::log, std::sqrt;
 inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
@@ -24,7 +24,7 @@ inline float clamp(float x, float low, float high) { return min(max(x, low), hig
 
 namespace coif::in_doubles
 {
-using std::asin, std::exp, std::fabs, std::floor, std::log, std::sqrt;
+using std::asin, std::cos, std::exp, std::fabs, std::floor, std::log, std::sqrt;
 inline double min(double a, double b) { return a < b ? a : b; }
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double clamp(double x, double low, double high) { return min(max(x, low), high); }

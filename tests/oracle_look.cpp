@@ -379,11 +379,10 @@ Vec near_light(const Lit& lit, Vec p, Vec tangent, Vec absorption, const std::ve
             // As the tracer has it: h is the cosine to the right of the eye's way, across the strand.
             const Vec other = glm::normalize(glm::cross(eye, tangent));
             a.phi = std::copysign(a.phi, glm::dot(l, other));
-            const double wide = lit.rays[k].direction.w;
-            const in_doubles::Rgb found = in_doubles::near_field(
-                in_doubles::near_place(fibre, a, {absorption.x, absorption.y, absorption.z},
-                                       float(-0.5 * (begin + end)), 2.0f / NEAR_CELLS),
-                in_doubles::lobe_heights(fibre, a, wide), a.phi, in_doubles::logistic_of(fibre, a, float(wide)));
+            const in_doubles::Rgb found =
+                in_doubles::near_field(in_doubles::near_place(fibre, a, {absorption.x, absorption.y, absorption.z},
+                                                              float(-0.5 * (begin + end)), 2.0f / NEAR_CELLS),
+                                       in_doubles::near_light(fibre, a, lit.rays[k].direction.w));
             sum += seen * straight[k] * e * Vec(found.r, found.g, found.b);
         }
     }

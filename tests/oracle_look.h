@@ -4,6 +4,7 @@
 #pragma once
 #include "app/fibre_shares.h"
 #include "kernels/look.h"
+#include "kernels/raster.h"
 #include "tests/fibre.h"
 #include "tests/oracle.h"
 

@@ -2,20 +2,24 @@
 // where strands are thin.
 #include "app/fibre_shares.h"
 #include "app/traced/fibre_near.h"
+#include "kernels/raster.h"
 #include "tests/fibre.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <vector>
 
 namespace coif
 {
 namespace
 {
 
-using in_doubles::Fibre, in_doubles::FibreAngles, in_doubles::LobeHeights, in_doubles::NearPlace, in_doubles::Rgb;
+using in_doubles::Fibre, in_doubles::FibreAngles, in_doubles::NearLight, in_doubles::NearPlace, in_doubles::Rgb,
+    in_doubles::near_light, in_doubles::near_place;
 
 constexpr double kPi = std::numbers::pi;
 const FibreLook kLook = {0.3, 0.3, 0.035, 1.55};
@@ -46,91 +50,124 @@ FibreAngles angles(double light, double eye, double phi)
     return a;
 }
 
-template <typename Visit> void for_some_angles(const Visit& visit)
+NearLight without_r(NearLight light)
 {
+    light.reflected = 0.0;
+    return light;
+}
+
+NearLight only_r(NearLight light)
+{
+    light.tt = light.trt = light.rest = 0.0;
+    return light;
+}
+
+struct Angle
+{
+    double light, eye, phi;
+};
+
+std::vector<Angle> some_angles()
+{
+    std::vector<Angle> some;
     for (const double light : {-1.1, -0.3, 0.0, 0.5, 1.2})
         for (const double eye : {-0.9, 0.0, 0.2, 1.3})
             for (const double phi : {-3.1, -2.0, -0.7, 0.0, 0.4, 1.5, 2.6})
-                visit(light, eye, phi);
+                some.push_back({light, eye, phi});
+    return some;
 }
 
 TEST(NearField, APlaceScattersAsTheTracersFibreDoes)
 {
     const Fibre fibre = fibre_of(kLook);
-    double worst = 0.0, most = 0.0;
-    for_some_angles(
-        [&](double light, double eye, double phi)
+    double worst = 0.0, most = 0.0, off_r = 0.0, size_r = 0.0;
+    for (const auto& [light, eye, phi] : some_angles())
+    {
+        const FibreAngles a = angles(light, eye, phi);
+        const NearLight l = near_light(fibre, a, 0.0f);
+        for (const double h : {-0.95, -0.7, -0.4, 0.0, 0.2, 0.3, 0.8})
         {
-            const FibreAngles a = angles(light, eye, phi);
-            const LobeHeights m = in_doubles::lobe_heights(fibre, a, 0.0);
-            for (const double h : {-0.95, -0.4, 0.0, 0.3, 0.8})
+            // Hardly a slice: lobes as wide as they are.
+            const NearPlace place = near_place(fibre, a, kBrown, float(h), 0.004f);
+            const FibreNear traced = {kLook, double(float(h)), {kBrown.r, kBrown.g, kBrown.b}};
+            const glm::dvec3 r = scatter_lobe(traced, 0, std::sin(eye), std::sin(light), phi);
+            const glm::dvec3 rest = scatter(traced, std::sin(eye), std::sin(light), phi) - r;
+            const Rgb found = in_doubles::near_field(place, without_r(l));
+            const glm::dvec3 is(found.r, found.g, found.b);
+            for (int c = 0; c < 3; ++c)
             {
-                // No slice: lobes as wide as they are.
-                const NearPlace place = in_doubles::near_place(fibre, a, kBrown, float(h), 0.0f);
-                const Rgb found = in_doubles::near_field(place, m, a.phi, double(fibre.logistic));
-                const FibreNear traced = {kLook, h, {kBrown.r, kBrown.g, kBrown.b}};
-                const glm::dvec3 truth = scatter(traced, std::sin(eye), std::sin(light), phi);
-                const glm::dvec3 is(found.r, found.g, found.b);
-                for (int c = 0; c < 3; ++c)
-                {
-                    worst = std::max(worst, std::abs(is[c] - truth[c]));
-                    most = std::max(most, truth[c]);
-                }
+                worst = std::max(worst, std::abs(is[c] - rest[c]));
+                most = std::max(most, rest[c]);
             }
-        });
+            off_r += std::pow(in_doubles::near_field(place, only_r(l)).g - r.y, 2);
+            size_r += r.y * r.y;
+        }
+    }
     EXPECT_GT(most, 1.0);
     EXPECT_LT(worst, 3e-6 * most); // its angles and widths are floats
+    // Fresnel's share is that in the middle of its lobe, not that of the place.
+    EXPECT_GT(size_r, 0.1);
+    EXPECT_LT(std::sqrt(off_r / size_r), 0.1);
 }
 
 TEST(NearField, TheMeanOverTheWidthIsTheFarField)
 {
     constexpr int kPlaces = 256;
+    constexpr float kSlice = 2.0f / kPlaces;
     const Fibre fibre = fibre_of(kLook);
-    double inside = 0.0, inside_off = 0.0;
-    for_some_angles(
-        [&](double light, double eye, double phi)
-        {
-            const FibreAngles a = angles(light, eye, phi);
-            LobeHeights m = in_doubles::lobe_heights(fibre, a, 0.0);
-            m.r = 0.0;
-            double mean = 0.0;
-            for (int i = 0; i < kPlaces; ++i)
-            {
-                const float slice = 2.0f / kPlaces, h = -1.0f + (float(i) + 0.5f) * slice;
-                mean += in_doubles::near_field(in_doubles::near_place(fibre, a, kBrown, h, slice), m, a.phi,
-                                               double(fibre.logistic))
-                            .g /
-                        kPlaces;
-            }
-            const double far = in_doubles::far_field(fibre, a, m, kBrown, kPlaces, false).g;
-            inside = std::max(inside, far);
-            inside_off = std::max(inside_off, std::abs(mean - far));
-        });
-    EXPECT_GT(inside, 0.1);
-    EXPECT_LT(inside_off, 1e-6 * inside);
-}
-
-// Its own lobe widens R, which far_field() has in closed form: they are one where there is hardly a lobe.
-TEST(NearField, TheMeanOfTheReflectionIsTheClosedForm)
-{
-    constexpr int kPlaces = 20000;
-    FibreLook smooth = kLook;
-    smooth.azimuthal = 0.05;
-    const Fibre fibre = fibre_of(smooth);
-    const LobeHeights only_r = {1.0, 0.0, 0.0, 0.0};
-    for (const double phi : {-2.6, -1.0, 0.0, 0.5, 2.0})
+    double most = 0.0, worst = 0.0;
+    for (const auto& [light, eye, phi] : some_angles())
     {
-        const FibreAngles a = angles(0.2, -0.3, phi);
+        if (std::abs(phi) > 2.8) // where R grazes
+            continue;
+        const FibreAngles a = angles(light, eye, phi);
         double mean = 0.0;
         for (int i = 0; i < kPlaces; ++i)
-        {
-            const float slice = 2.0f / kPlaces, h = -1.0f + (float(i) + 0.5f) * slice;
-            mean += in_doubles::near_field(in_doubles::near_place(fibre, a, kBrown, h, slice), only_r, a.phi,
-                                           double(fibre.logistic))
-                        .r /
+            mean += in_doubles::near_field(near_place(fibre, a, kBrown, -1.0f + (float(i) + 0.5f) * kSlice, kSlice),
+                                           near_light(fibre, a, 0.0f))
+                        .g /
                     kPlaces;
+        const double far =
+            in_doubles::far_field(fibre, a, in_doubles::lobe_heights(fibre, a, 0.0), kBrown, kPlaces, false).g;
+        most = std::max(most, far);
+        worst = std::max(worst, std::abs(mean - far));
+    }
+    EXPECT_GT(most, 0.1);
+    EXPECT_LT(worst, 1e-5 * most);
+}
+
+// As many cells as the rasteriser has, whatever a pixel sees of them (kernels/raster_across.h), against places without
+// end.
+TEST(NearField, CellsAreEnoughForPixels)
+{
+    constexpr int kFine = 64; // places to a cell
+    constexpr float kSlice = 2.0f / NEAR_CELLS;
+    const Fibre fibre = fibre_of(kLook);
+    for (const int pixels : {1, 3, 5, 8, 16})
+    {
+        double off = 0.0, size = 0.0;
+        for (const auto& [light, eye, phi] : some_angles())
+        {
+            const FibreAngles a = angles(light, eye, phi);
+            const NearLight l = near_light(fibre, a, 0.0f);
+            std::vector<double> found(size_t(pixels), 0.0), truth(size_t(pixels), 0.0);
+            for (int i = 0; i < NEAR_CELLS * kFine; ++i)
+            {
+                const double h = -1.0 + 2.0 * (i + 0.5) / (NEAR_CELLS * kFine);
+                const size_t pixel = size_t(0.5 * (h + 1.0) * pixels);
+                const FibreNear traced = {kLook, h, {kBrown.r, kBrown.g, kBrown.b}};
+                truth[pixel] += scatter(traced, std::sin(eye), std::sin(light), phi).y;
+                const float middle = -1.0f + (float(i / kFine) + 0.5f) * kSlice;
+                found[pixel] += in_doubles::near_field(near_place(fibre, a, kBrown, middle, kSlice), l).g;
+            }
+            for (size_t i = 0; i < found.size(); ++i)
+            {
+                off += std::pow(found[i] - truth[i], 2);
+                size += truth[i] * truth[i];
+            }
         }
-        EXPECT_NEAR(mean, in_doubles::far_field(fibre, a, only_r, kBrown, 4, false).r, 0.003 * mean) << phi;
+        std::printf("%d pixels across: %.3f off\n", pixels, std::sqrt(off / size));
+        EXPECT_LT(std::sqrt(off / size), pixels == 1 ? 0.03 : 0.06) << pixels;
     }
 }
 
@@ -138,36 +175,28 @@ TEST(NearField, TheMeanOfTheReflectionIsTheClosedForm)
 TEST(NearField, SidesAreMirrored)
 {
     const Fibre fibre = fibre_of(kLook);
-    for_some_angles(
-        [&](double light, double eye, double phi)
+    for (const auto& [light, eye, phi] : some_angles())
+    {
+        const FibreAngles a = angles(light, eye, phi);
+        FibreAngles mirrored = a;
+        mirrored.phi = -a.phi;
+        for (const float h : {0.2f, 0.7f})
         {
-            const FibreAngles a = angles(light, eye, phi);
-            const LobeHeights m = in_doubles::lobe_heights(fibre, a, 0.0);
-            for (const float h : {0.2f, 0.7f})
-            {
-                const auto at = [&](float place, double azimuth)
-                {
-                    return in_doubles::near_field(in_doubles::near_place(fibre, a, kBrown, place, 0.1f), m, azimuth,
-                                                  double(fibre.logistic));
-                };
-                const Rgb one = at(h, phi), other = at(-h, -phi);
-                EXPECT_NEAR(one.g, other.g, 1e-6 * one.g + 1e-9);
-            }
-        });
-    const LobeHeights only_r = {1.0, 0.0, 0.0, 0.0};
+            const double one =
+                in_doubles::near_field(near_place(fibre, a, kBrown, h, 0.1f), near_light(fibre, a, 0.0f)).g;
+            const double other =
+                in_doubles::near_field(near_place(fibre, a, kBrown, -h, 0.1f), near_light(fibre, mirrored, 0.0f)).g;
+            EXPECT_NEAR(one, other, 1e-6 * one + 1e-9);
+        }
+    }
     const FibreAngles a = angles(0.0, 0.0, 1.2);
     const auto reflected = [&](float h)
-    {
-        return in_doubles::near_field(in_doubles::near_place(fibre, a, kBrown, h, 0.1f), only_r, a.phi,
-                                      double(fibre.logistic))
-            .g;
-    };
+    { return in_doubles::near_field(near_place(fibre, a, kBrown, h, 0.1f), only_r(near_light(fibre, a, 0.0f))).g; };
     EXPECT_GT(reflected(-0.55f), 10.0 * reflected(0.55f));
 }
 
 TEST(NearField, NothingIsNoNumber)
 {
-    using in_floats::near_field, in_floats::near_place;
     for (const double roughness : {0.0, 0.3, 1.0})
         for (const double azimuthal : {0.0, 0.3, 1.0})
             for (const double ior : {1.0001, 1.55, 3.0})
@@ -181,11 +210,11 @@ TEST(NearField, NothingIsNoNumber)
                                                             d.sin_tilt,       d.cos_tilt,      d.sin_twice_tilt,
                                                             d.cos_twice_tilt, d.sin_four_tilt, d.cos_four_tilt};
                                 const in_floats::FibreAngles a = in_floats::fibre_angles(along, eye, 0.4f);
-                                const float s = in_floats::logistic_of(f, a, 0.2f);
-                                const in_floats::Rgb found = near_field(
-                                    near_place(f, a, {absorb, absorb, absorb}, (float(cell) - 7.5f) / 8.0f, 0.125f),
-                                    in_floats::lobe_heights(f, a, 0.2f), a.phi, s);
-                                ASSERT_TRUE(std::isfinite(found.r + found.g + found.b) && found.r >= 0.0f)
+                                const in_floats::Rgb found =
+                                    in_floats::near_field(in_floats::near_place(f, a, {absorb, absorb, absorb},
+                                                                                (float(cell) - 7.5f) / 8.0f, 0.125f),
+                                                          in_floats::near_light(f, a, 0.2f));
+                                ASSERT_TRUE(std::isfinite(found.r + found.g + found.b) && found.r > -1e-4f)
                                     << roughness << ' ' << azimuthal << ' ' << ior << ' ' << along << ' ' << eye;
                             }
 }
@@ -195,27 +224,29 @@ TEST(NearField, AWideLightIsManyNarrowOnes)
 {
     const Fibre fibre = fibre_of({0.3, 0.1, 0.0, 1.55});
     const double radius = 0.22;
-    constexpr int kRings = 40;
+    constexpr int kAcross = 40;
     for (const double phi : {0.3, 0.8, 2.2})
     {
         const FibreAngles a = angles(0.0, 0.0, phi);
-        const LobeHeights only_r = {1.0, 0.0, 0.0, 0.0};
-        const NearPlace place = in_doubles::near_place(fibre, a, kBrown, float(-std::sin(0.5 * phi)), 0.0f);
+        const NearPlace place = near_place(fibre, a, kBrown, float(-std::sin(0.5 * phi)), 0.004f);
+        const NearLight narrow = only_r(near_light(fibre, a, 0.0f));
         double many = 0.0, weights = 0.0;
-        for (int i = 0; i < kRings; ++i)
-            for (int k = 0; k < kRings; ++k)
+        for (int i = 0; i < kAcross; ++i)
+            for (int k = 0; k < kAcross; ++k)
             {
-                const double x = -1.0 + 2.0 * (i + 0.5) / kRings, y = -1.0 + 2.0 * (k + 0.5) / kRings;
+                const double x = -1.0 + 2.0 * (i + 0.5) / kAcross, y = -1.0 + 2.0 * (k + 0.5) / kAcross;
                 if (x * x + y * y > 1.0)
                     continue;
-                many += in_doubles::near_field(place, only_r, phi + radius * x, double(fibre.logistic)).r;
+                NearLight there = narrow;
+                there.phi += radius * x;
+                many += in_doubles::near_field(place, there).r;
                 weights += 1.0;
             }
-        const double one =
-            in_doubles::near_field(place, only_r, phi, in_doubles::logistic_of(fibre, a, float(radius * radius))).r;
-        const double narrow = in_doubles::near_field(place, only_r, phi, double(fibre.logistic)).r;
-        EXPECT_NEAR(one, many / weights, 0.25 * many / weights) << phi;
-        EXPECT_GT(narrow, 2.0 * one) << "it matters";
+        NearLight wide = only_r(near_light(fibre, a, float(radius * radius)));
+        wide.reflected = narrow.reflected; // but for its width along the fibre
+        const double one = in_doubles::near_field(place, wide).r;
+        EXPECT_NEAR(one, many / weights, 0.1 * many / weights) << phi;
+        EXPECT_GT(in_doubles::near_field(place, narrow).r, 2.0 * one) << "it matters";
     }
 }
 
