@@ -32,24 +32,19 @@ CURVE_FUNCTION REAL lobe_below(REAL x, LobeWidth of)
     return turns + SELECT(-half_share, half_share, y > 0.0f);
 }
 
-// What of a `slice` of h about a place hangs not on the light: what is left of it in each lobe, where that leaves, and
-// how wide it is at least, so that it covers the slice. R leaves from one azimuth to another.
+// What of a `slice` of h about a place hangs not on the light: what is left of it in each lobe but R, where that
+// leaves, and how wide it is at least, so that it covers the slice. At -h all is the same but for the sign of azimuths.
 STRUCT(NearPlace)
 {
     Rgb tt, trt, rest;
     REAL phi_tt, phi_trt;
     LobeWidth wide_tt, wide_trt;
-    float begin_r, end_r, per_slice;
 };
 
 CURVE_FUNCTION NearPlace near_place(Fibre f, FibreAngles a, Rgb absorb, float h, float slice)
 {
     FibrePlace p = place_across(f, a, h, slice);
     NearPlace n;
-    float high = h + 0.5f * slice, low = h - 0.5f * slice;
-    n.begin_r = -2.0f * asin(high < 1.0f ? high : 1.0f);
-    n.end_r = -2.0f * asin(low > -1.0f ? low : -1.0f);
-    n.per_slice = 2.0f / slice;
     n.phi_tt = p.through;
     n.phi_trt = p.back;
     n.wide_tt = lobe_width(p.wide_tt);
@@ -64,8 +59,8 @@ CURVE_FUNCTION NearPlace near_place(Fibre f, FibreAngles a, Rgb absorb, float h,
     return n;
 }
 
-// What of a light hangs not on the place: the longitudinal heights of its lobes, all of R, and the width of the
-// azimuthal ones.
+// What of a light hangs not on the place: the longitudinal heights of its lobes, all of R, the azimuth and the width of
+// azimuthal lobes.
 STRUCT(NearLight)
 {
     REAL reflected, tt, trt, rest, phi;
@@ -92,9 +87,24 @@ CURVE_FUNCTION NearLight near_light(Fibre f, FibreAngles a, float variance)
     return l;
 }
 
-CURVE_FUNCTION Rgb near_field(NearPlace p, NearLight l)
+CURVE_FUNCTION NearLight mirrored_light(NearLight l)
 {
-    REAL r = l.reflected * p.per_slice * (lobe_below(l.phi - p.begin_r, l.own) - lobe_below(l.phi - p.end_r, l.own));
+    l.phi = -l.phi;
+    return l;
+}
+
+// The azimuth that R leaves at.
+CURVE_FUNCTION float reflected_at(float h) { return -2.0f * asin(h < -1.0f ? -1.0f : h > 1.0f ? 1.0f : h); }
+
+// What R sends from all places that it leaves from at a greater azimuth, as a share of the width.
+CURVE_FUNCTION REAL reflected_beyond(NearLight l, float azimuth)
+{
+    return l.reflected * lobe_below(l.phi - azimuth, l.own);
+}
+
+// `r`: that of the place's slice, over the slice's share of the width.
+CURVE_FUNCTION Rgb near_field(NearPlace p, NearLight l, REAL r)
+{
     REAL tt = l.tt * lobe_at(l.phi - p.phi_tt, l.own, p.wide_tt);
     REAL trt = l.trt * lobe_at(l.phi - p.phi_trt, l.own, p.wide_trt);
     return rgb(r + tt * p.tt.r + trt * p.trt.r + l.rest * p.rest.r, r + tt * p.tt.g + trt * p.trt.g + l.rest * p.rest.g,

@@ -32,25 +32,31 @@ static inline void store_near(Reals tangent, Reals eye, Rgb absorb, global const
     const real sx = eye.y * tangent.z - eye.z * tangent.y, sy = eye.z * tangent.x - eye.x * tangent.z,
                sz = eye.x * tangent.y - eye.y * tangent.x;
     const float slice = 2.0f / (float)NEAR_CELLS;
-    NearPlace cells[NEAR_CELLS];
+    NearPlace places[NEAR_CELLS / 2]; // from the middle to one side, which serve for both
+    float edges[NEAR_CELLS + 1];
     Rgb sums[NEAR_CELLS];
     const FibreAngles seen = fibre_angles((real)(0.0f), along_eye, (real)(1.0f));
+    for (int i = 0; i < NEAR_CELLS / 2; ++i)
+        places[i] = near_place(fibre, seen, absorb, ((float)i + 0.5f) * slice, slice);
+    for (int cell = 0; cell <= NEAR_CELLS; ++cell)
+        edges[cell] = reflected_at(1.0f - (float)cell * slice);
     for (int cell = 0; cell < NEAR_CELLS; ++cell)
-    {
-        cells[cell] = near_place(fibre, seen, absorb, 1.0f - ((float)cell + 0.5f) * slice, slice);
         sums[cell] = rgb((real)(0.0f), (real)(0.0f), (real)(0.0f));
-    }
     for (int k = 0; k < look_frame->suns; ++k)
     {
         const float4 l = rays[k].direction, e = rays[k].irradiance * look_frame->near;
         FibreAngles a = fibre_angles(tangent.x * l.x + tangent.y * l.y + tangent.z * l.z, along_eye,
                                      eye.x * l.x + eye.y * l.y + eye.z * l.z);
         a.phi = select(a.phi, -a.phi, sx * l.x + sy * l.y + sz * l.z < 0.0f);
-        const NearLight light = near_light(fibre, a, l.w);
         const real lit = straight_at(straight + k * stride, first, share);
+        const NearLight light = near_light(fibre, a, l.w), mirrored = mirrored_light(light);
+        real beyond = reflected_beyond(light, edges[0]);
         for (int cell = 0; cell < NEAR_CELLS; ++cell)
         {
-            const Rgb f = near_field(cells[cell], light);
+            const real after = reflected_beyond(light, edges[cell + 1]), r = (float)NEAR_CELLS * (beyond - after);
+            beyond = after;
+            const Rgb f = cell < NEAR_CELLS / 2 ? near_field(places[NEAR_CELLS / 2 - 1 - cell], light, r)
+                                                : near_field(places[cell - NEAR_CELLS / 2], mirrored, r);
             sums[cell].r += e.x * lit * f.r;
             sums[cell].g += e.y * lit * f.g;
             sums[cell].b += e.z * lit * f.b;

@@ -376,13 +376,16 @@ Vec near_light(const Lit& lit, Vec p, Vec tangent, Vec absorption, const std::ve
             const Vec l = xyz(lit.rays[k].direction), e = xyz(lit.rays[k].irradiance);
             in_doubles::FibreAngles a =
                 in_doubles::fibre_angles(glm::dot(tangent, l), glm::dot(tangent, eye), glm::dot(l, eye));
-            // As the tracer has it: h is the cosine to the right of the eye's way, across the strand.
             const Vec other = glm::normalize(glm::cross(eye, tangent));
             a.phi = std::copysign(a.phi, glm::dot(l, other));
+            const double h = -0.5 * (begin + end); // to the right, as the tracer has it
+            const in_doubles::NearLight light = in_doubles::near_light(fibre, a, lit.rays[k].direction.w);
+            const double r = in_doubles::reflected_beyond(light, in_doubles::reflected_at(float(-begin))) -
+                             in_doubles::reflected_beyond(light, in_doubles::reflected_at(float(-end)));
             const in_doubles::Rgb found =
                 in_doubles::near_field(in_doubles::near_place(fibre, a, {absorption.x, absorption.y, absorption.z},
-                                                              float(-0.5 * (begin + end)), 2.0f / NEAR_CELLS),
-                                       in_doubles::near_light(fibre, a, lit.rays[k].direction.w));
+                                                              float(h), 2.0f / NEAR_CELLS),
+                                       light, r * NEAR_CELLS);
             sum += seen * straight[k] * e * Vec(found.r, found.g, found.b);
         }
     }

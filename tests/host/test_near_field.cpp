@@ -18,8 +18,7 @@ namespace coif
 namespace
 {
 
-using in_doubles::Fibre, in_doubles::FibreAngles, in_doubles::NearLight, in_doubles::NearPlace, in_doubles::Rgb,
-    in_doubles::near_light, in_doubles::near_place;
+using in_doubles::Fibre, in_doubles::FibreAngles, in_doubles::NearLight, in_doubles::Rgb, in_doubles::near_light;
 
 constexpr double kPi = std::numbers::pi;
 const FibreLook kLook = {0.3, 0.3, 0.035, 1.55};
@@ -62,6 +61,14 @@ NearLight only_r(NearLight light)
     return light;
 }
 
+// What a slice about h scatters, of brown hair.
+Rgb near_at(const Fibre& fibre, const FibreAngles& a, float h, float slice, const NearLight& light)
+{
+    const double r = in_doubles::reflected_beyond(light, in_doubles::reflected_at(h + 0.5f * slice)) -
+                     in_doubles::reflected_beyond(light, in_doubles::reflected_at(h - 0.5f * slice));
+    return in_doubles::near_field(in_doubles::near_place(fibre, a, kBrown, h, slice), light, r * 2.0 / double(slice));
+}
+
 struct Angle
 {
     double light, eye, phi;
@@ -87,19 +94,18 @@ TEST(NearField, APlaceScattersAsTheTracersFibreDoes)
         const NearLight l = near_light(fibre, a, 0.0f);
         for (const double h : {-0.95, -0.7, -0.4, 0.0, 0.2, 0.3, 0.8})
         {
-            // Hardly a slice: lobes as wide as they are.
-            const NearPlace place = near_place(fibre, a, kBrown, float(h), 0.004f);
+            constexpr float kThin = 0.004f; // lobes as wide as they are
             const FibreNear traced = {kLook, double(float(h)), {kBrown.r, kBrown.g, kBrown.b}};
             const glm::dvec3 r = scatter_lobe(traced, 0, std::sin(eye), std::sin(light), phi);
             const glm::dvec3 rest = scatter(traced, std::sin(eye), std::sin(light), phi) - r;
-            const Rgb found = in_doubles::near_field(place, without_r(l));
+            const Rgb found = near_at(fibre, a, float(h), kThin, without_r(l));
             const glm::dvec3 is(found.r, found.g, found.b);
             for (int c = 0; c < 3; ++c)
             {
                 worst = std::max(worst, std::abs(is[c] - rest[c]));
                 most = std::max(most, rest[c]);
             }
-            off_r += std::pow(in_doubles::near_field(place, only_r(l)).g - r.y, 2);
+            off_r += std::pow(near_at(fibre, a, float(h), kThin, only_r(l)).g - r.y, 2);
             size_r += r.y * r.y;
         }
     }
@@ -123,10 +129,8 @@ TEST(NearField, TheMeanOverTheWidthIsTheFarField)
         const FibreAngles a = angles(light, eye, phi);
         double mean = 0.0;
         for (int i = 0; i < kPlaces; ++i)
-            mean += in_doubles::near_field(near_place(fibre, a, kBrown, -1.0f + (float(i) + 0.5f) * kSlice, kSlice),
-                                           near_light(fibre, a, 0.0f))
-                        .g /
-                    kPlaces;
+            mean +=
+                near_at(fibre, a, -1.0f + (float(i) + 0.5f) * kSlice, kSlice, near_light(fibre, a, 0.0f)).g / kPlaces;
         const double far =
             in_doubles::far_field(fibre, a, in_doubles::lobe_heights(fibre, a, 0.0), kBrown, kPlaces, false).g;
         most = std::max(most, far);
@@ -158,7 +162,7 @@ TEST(NearField, CellsAreEnoughForPixels)
                 const FibreNear traced = {kLook, h, {kBrown.r, kBrown.g, kBrown.b}};
                 truth[pixel] += scatter(traced, std::sin(eye), std::sin(light), phi).y;
                 const float middle = -1.0f + (float(i / kFine) + 0.5f) * kSlice;
-                found[pixel] += in_doubles::near_field(near_place(fibre, a, kBrown, middle, kSlice), l).g;
+                found[pixel] += near_at(fibre, a, middle, kSlice, l).g;
             }
             for (size_t i = 0; i < found.size(); ++i)
             {
@@ -182,16 +186,13 @@ TEST(NearField, SidesAreMirrored)
         mirrored.phi = -a.phi;
         for (const float h : {0.2f, 0.7f})
         {
-            const double one =
-                in_doubles::near_field(near_place(fibre, a, kBrown, h, 0.1f), near_light(fibre, a, 0.0f)).g;
-            const double other =
-                in_doubles::near_field(near_place(fibre, a, kBrown, -h, 0.1f), near_light(fibre, mirrored, 0.0f)).g;
+            const double one = near_at(fibre, a, h, 0.1f, near_light(fibre, a, 0.0f)).g;
+            const double other = near_at(fibre, a, -h, 0.1f, near_light(fibre, mirrored, 0.0f)).g;
             EXPECT_NEAR(one, other, 1e-6 * one + 1e-9);
         }
     }
     const FibreAngles a = angles(0.0, 0.0, 1.2);
-    const auto reflected = [&](float h)
-    { return in_doubles::near_field(near_place(fibre, a, kBrown, h, 0.1f), only_r(near_light(fibre, a, 0.0f))).g; };
+    const auto reflected = [&](float h) { return near_at(fibre, a, h, 0.1f, only_r(near_light(fibre, a, 0.0f))).g; };
     EXPECT_GT(reflected(-0.55f), 10.0 * reflected(0.55f));
 }
 
@@ -210,10 +211,12 @@ TEST(NearField, NothingIsNoNumber)
                                                             d.sin_tilt,       d.cos_tilt,      d.sin_twice_tilt,
                                                             d.cos_twice_tilt, d.sin_four_tilt, d.cos_four_tilt};
                                 const in_floats::FibreAngles a = in_floats::fibre_angles(along, eye, 0.4f);
-                                const in_floats::Rgb found =
-                                    in_floats::near_field(in_floats::near_place(f, a, {absorb, absorb, absorb},
-                                                                                (float(cell) - 7.5f) / 8.0f, 0.125f),
-                                                          in_floats::near_light(f, a, 0.2f));
+                                const float h = (float(cell) - 7.5f) / 8.0f;
+                                const in_floats::NearLight l = in_floats::near_light(f, a, 0.2f);
+                                const float r = in_floats::reflected_beyond(l, in_floats::reflected_at(h + 0.0625f)) -
+                                                in_floats::reflected_beyond(l, in_floats::reflected_at(h - 0.0625f));
+                                const in_floats::Rgb found = in_floats::near_field(
+                                    in_floats::near_place(f, a, {absorb, absorb, absorb}, h, 0.125f), l, r);
                                 ASSERT_TRUE(std::isfinite(found.r + found.g + found.b) && found.r > -1e-4f)
                                     << roughness << ' ' << azimuthal << ' ' << ior << ' ' << along << ' ' << eye;
                             }
@@ -228,7 +231,7 @@ TEST(NearField, AWideLightIsManyNarrowOnes)
     for (const double phi : {0.3, 0.8, 2.2})
     {
         const FibreAngles a = angles(0.0, 0.0, phi);
-        const NearPlace place = near_place(fibre, a, kBrown, float(-std::sin(0.5 * phi)), 0.004f);
+        const float h = float(-std::sin(0.5 * phi));
         const NearLight narrow = only_r(near_light(fibre, a, 0.0f));
         double many = 0.0, weights = 0.0;
         for (int i = 0; i < kAcross; ++i)
@@ -239,14 +242,14 @@ TEST(NearField, AWideLightIsManyNarrowOnes)
                     continue;
                 NearLight there = narrow;
                 there.phi += radius * x;
-                many += in_doubles::near_field(place, there).r;
+                many += near_at(fibre, a, h, 0.004f, there).r;
                 weights += 1.0;
             }
         NearLight wide = only_r(near_light(fibre, a, float(radius * radius)));
         wide.reflected = narrow.reflected; // but for its width along the fibre
-        const double one = in_doubles::near_field(place, wide).r;
+        const double one = near_at(fibre, a, h, 0.004f, wide).r;
         EXPECT_NEAR(one, many / weights, 0.1 * many / weights) << phi;
-        EXPECT_GT(in_doubles::near_field(place, narrow).r, 2.0 * one) << "it matters";
+        EXPECT_GT(near_at(fibre, a, h, 0.004f, narrow).r, 2.0 * one) << "it matters";
     }
 }
 
