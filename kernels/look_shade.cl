@@ -1,6 +1,6 @@
 // The colour of each place: what suns and sky bring there, what the fibre makes of it, and what others hand on to it.
-// LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with
-// dual scattering. NEAR_FIELD: some of F D is left to the rasteriser, which is told D.
+// LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with dual
+// scattering. NEAR_FIELD: some of F D is left to the rasteriser, which is told D.
 //
 //   L = sum over suns of E [D (F + B(s)) + G (F_G(v) + B(s + v))] + sky      (after Zinke 2008, eq. 23 to 27)
 //   D = exp(-tau): light that comes straight; G: light handed on by fibres, wider by v; F, F_G: the fibre for either;
@@ -103,11 +103,12 @@ static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined 
     return c;
 }
 
-kernel void look_shade(global const float4* places, global const StrandLook* looks, global const DrawnStrand* strands,
-                       global const float4* braids, global const float* wave_table, constant HairParams* params,
-                       constant LookFrame* look_frame, constant LookVolume* volume, constant LookVolume* coarse_volume,
-                       constant LookRay* rays, global const float* depth, constant LookRay* eye_rays,
-                       global const float* eye_depth, global const float* sky, global const float* shares,
+kernel void look_shade(global const float4* places, global const StrandLook* looks,
+                       global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
+                       constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
+                       constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
+                       constant LookRay* eye_rays, global const float* eye_depth, global const float* sky,
+                       global const float* shares,
 #ifdef NEAR_FIELD
                        global ushort* straight_light,
 #endif

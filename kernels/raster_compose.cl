@@ -5,9 +5,9 @@
 // to the bit for either, so that no pixel of a strand is covered twice or missed. Along whichever of rows and columns
 // cross it, a ribbon covers each pixel by what it shares with it, which adds up to its area however thin it is.
 //
-// Pieces are in order by their middles' depth. Where they are wide (HELD) that order shows: of two strands that lie
-// along each other now one is in front, now the other. There one layer waits at each pixel, so that the next may go
-// before it. And it is seen how they are lit from side to side (NEAR_FIELD).
+// Pieces are in order by their middles' depth. Where they are wide (HELD) that order shows: of two strands that lie along
+// each other now one is in front, now the other. There one layer waits at each pixel, so that the next may go before it.
+// And it is seen how they are lit from side to side (NEAR_FIELD).
 #include "raster.h"
 
 #if WIDTH == 1
@@ -355,8 +355,7 @@ kernel void raster_compose(global const float* points, global const RasterPiece*
     for (int s = 0; s < DOWN * ACROSS; ++s)
     {
         Square* square = canvas.square + s;
-        lay(square, LOAD(square->held_alpha), LOAD(square->held_red), LOAD(square->held_green),
-            LOAD(square->held_blue));
+        lay(square, LOAD(square->held_alpha), LOAD(square->held_red), LOAD(square->held_green), LOAD(square->held_blue));
     }
 #endif
     store_canvas(&canvas, picture, x0, y0, frame);

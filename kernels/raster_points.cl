@@ -172,8 +172,7 @@ kernel void raster_points(global const float4* drawn_position, global const floa
 #elif defined(SHADED) // SHADED places a segment have been: linear between them
         const real at_place = (TO_REAL(numbers - 1) + t) * (float)SHADED;
         const whole place = min(TO_WHOLE(at_place), (whole)((NODES - 2) * SHADED - 1));
-        const Reals told =
-            shaded_at(shaded + own.strand * ((NODES - 2) * SHADED + 1), place, at_place - TO_REAL(place));
+        const Reals told = shaded_at(shaded + own.strand * ((NODES - 2) * SHADED + 1), place, at_place - TO_REAL(place));
         red = told.x;
         green = told.y;
         blue = told.z;
@@ -190,8 +189,9 @@ kernel void raster_points(global const float4* drawn_position, global const floa
 #else
         const real ex = eye.x - x, ey = eye.y - y, ez = eye.z - z;
         const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
-        const Reals fibre = kajiya_kay(params, wave_table, tx * to_light.x + ty * to_light.y + tz * to_light.z,
-                                       (tx * ex + ty * ey + tz * ez) * near_eye, light);
+        const Reals fibre =
+            kajiya_kay(params, wave_table, tx * to_light.x + ty * to_light.y + tz * to_light.z,
+                       (tx * ex + ty * ey + tz * ez) * near_eye, light);
         const real tip = profile_at(params->look_color_along, along);
         const float4 from = look.root_color, to = look.tip_color - look.root_color;
         red = scattered(fibre, (from.x + to.x * tip) * brightness, light * sun.x);
@@ -226,8 +226,8 @@ kernel void raster_points(global const float4* drawn_position, global const floa
         const real short_by = INVERSE_SQRT(fmax(mx * mx + my * my, (real)(1e-20f)));
         mx *= short_by;
         my *= short_by;
-        const real width =
-            fmax(wider * ribbon_width(params, wave_table, look.width, along), (real)(0.0f)) * inverse * (1.0f / eye.w);
+        const real width = fmax(wider * ribbon_width(params, wave_table, look.width, along), (real)(0.0f)) *
+                           inverse * (1.0f / eye.w);
         there &= (fabs(screen_x) < 1e6f) & (fabs(screen_y) < 1e6f) & (width < 1e6f) & (mx == mx) & (my == my) &
                  (red + green + blue + opacity < 1e9f);
 
@@ -246,9 +246,9 @@ kernel void raster_points(global const float4* drawn_position, global const floa
             const bool last = isnan(at.t[i + lane + 1]);
             const uint marks = (last ? MARK_LAST : 0) | (last && segment[lane] == NODES - 2 ? MARK_TIP : 0);
             const uint root = segment[lane] == 1 && isnan(at.t[i + lane - 1]) ? MARK_ROOT : 0;
-            const float8 point =
-                (float8)(stored[0][lane], stored[1][lane], stored[2][lane], stored[3][lane], as_float(rg[lane] | root),
-                         as_float(bo[lane] | marks), stored[4][lane], stored[5][lane]);
+            const float8 point = (float8)(stored[0][lane], stored[1][lane], stored[2][lane], stored[3][lane],
+                                          as_float(rg[lane] | root), as_float(bo[lane] | marks), stored[4][lane],
+                                          stored[5][lane]);
             vstore8(point, own.first + i - 1 + lane, points);
         }
     }
