@@ -61,7 +61,11 @@ class Rasteriser
     // until then, on the host.
     const cl::Buffer& solid_buffer(int width, int height);
     float* solid_depth(int width, int height);
-    RasterPicture draw(const RasterStrands& strands, const RasterView& view);
+    // Looks where strands are seen: the pieces that each segment will be cut into, a byte a node, the first segment's
+    // at the second node; 0: not seen, though the view move by a pixel. Before draw().
+    const cl::Buffer& measure(const RasterStrands& strands, const RasterView& view);
+    // What has been measured last.
+    RasterPicture draw(const RasterStrands& strands);
 
     const Device& device() const { return passes_.device; }
     const Buffers& buffers() const { return passes_.buffers; } // for tests: by kernel argument
@@ -78,10 +82,11 @@ class Rasteriser
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
   private:
-    void draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
-                    int points_end, const std::string& options);
+    void draw_batch(const std::vector<RasterStrand>& listed, size_t begin, size_t end, int points_end,
+                    const std::string& options);
 
     Passes passes_;
+    RasterFrame frame_ = {};
     float* solid_ = nullptr; // mapped, or none
     bool held_ = false;
     int width_ = 0, height_ = 0, batches_ = 0;

@@ -335,7 +335,7 @@ void Shading::find_front(glm::vec3 eye)
     follow(volume_, "eye_", 1, "-D FRONT");
 }
 
-const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept)
+const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces)
 try
 {
     const size_t strands = size_t(volume_.strands);
@@ -344,8 +344,12 @@ try
         find_front(eye);
     shaded_.colors =
         passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
+    if (pieces)
+        passes_.buffers["pieces"] = *pieces;
     if (strands > 0)
-        passes_.launch("look_shade", options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY), strands);
+        passes_.launch("look_shade",
+                       options_ + fmt::format(" -D LEVEL={}{}", level - LOOK_KAJIYA_KAY, pieces ? " -D CULLED" : ""),
+                       strands);
     return shaded_;
 }
 catch (const cl::Error& e)

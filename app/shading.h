@@ -32,8 +32,9 @@ class Shading
 
     // Follows the light of a scene. Throws Error where the device refuses.
     void light(const LitScene& scene);
-    // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn.
-    const ShadedStrands& shade(glm::vec3 eye, int level, float kept);
+    // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn;
+    // `pieces`, as Rasteriser::measure() has them: what is seen, if only that need be right.
+    const ShadedStrands& shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces = nullptr);
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
 

@@ -106,12 +106,28 @@ static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined 
     return c;
 }
 
+#ifdef CULLED
+// Is any segment seen that places from `first` to `last` colour? `pieces`: of a strand's segments, by raster_measure.
+// Who draws a segment reads the place after its last one, too.
+static inline bool is_seen(global const uchar* pieces, int first, int last)
+{
+    bool seen = false;
+    for (int k = max(first - 2, 0) / PIECES; k <= min(last / PIECES, NODES - 3); ++k)
+        seen |= pieces[k + 1] > 0;
+    return seen;
+}
+#endif
+
 kernel void look_shade(global const float4* places, global const StrandLook* looks,
                        global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
                        constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
                        constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
                        constant LookRay* eye_rays, global const float* eye_depth, global const float* sky,
-                       global const float* shares, global uint2* shaded)
+                       global const float* shares,
+#ifdef CULLED
+                       global const uchar* pieces,
+#endif
+                       global uint2* shaded)
 {
     const int strand = (int)get_global_id(0);
     if (strand >= volume->strands || STRAND_TURN(strand) >= look_frame->eye.w * (1.0f + FADE))
@@ -152,6 +168,10 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
     const size_t all = (size_t)volume_voxels(volume);
     for (int i = 0; i < count; i += WIDTH)
     {
+#ifdef CULLED
+        if (!is_seen(pieces + strand * NODES, i, min(i + WIDTH, count) - 1))
+            continue;
+#endif
         float px[WIDTH], py[WIDTH], pz[WIDTH], wx[WIDTH], wy[WIDTH], wz[WIDTH], shares_along[WIDTH];
         for (int lane = 0; lane < WIDTH; ++lane)
         {

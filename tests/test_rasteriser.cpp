@@ -143,7 +143,8 @@ class Scene
         float* depth = rasteriser.solid_depth(view.width, view.height);
         for (size_t i = 0; i < count; ++i)
             depth[i] = solid.empty() ? 1.0f : solid[i];
-        const RasterPicture picture = rasteriser.draw(drawn, view);
+        rasteriser.measure(drawn, view);
+        const RasterPicture picture = rasteriser.draw(drawn);
         const Mapped mapped(rasteriser.device(), picture.pixels, picture.bytes);
         Pixels pixels;
         pixels.values.resize(4 * count);
