@@ -26,15 +26,15 @@ static float4 row_of(const glm::mat4& matrix, int row)
     return F4(r.x, r.y, r.z, r.w);
 }
 
-float mean_width(const Solver& solver, const HairParams& params, glm::vec3 eye, float pixel, float near)
+// Pixels that strands are wide on the whole. Hangs on how far the head's middle is, and on nothing that jumps.
+static float mean_width(const RasterStrands& strands, const RasterView& view)
 {
+    const Solver& solver = *strands.solver;
     const glm::vec3 center(solver.head().turn * glm::dvec3(solver.groom().center));
-    const float there = pixel * std::max(glm::distance(eye, center), near); // m
-    const float4 along = params.look_width_along;
-    return params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / there;
+    const float pixel = view.pixel * std::max(glm::distance(view.eye, center), view.near); // m
+    const float4 along = strands.params.look_width_along;
+    return strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / pixel;
 }
-
-float Rasteriser::near_share(float mean_width) const { return std::clamp(mean_width - near_width, 0.0f, 1.0f); }
 
 // Of all strands, that are drawn.
 static float kept_share(float width, float least_width)
@@ -87,24 +87,24 @@ float* Rasteriser::solid_depth(int width, int height)
     return solid_;
 }
 
-void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
-                            int points_end, const std::string& options)
+void Rasteriser::draw_batch(const std::vector<RasterStrand>& listed, size_t begin, size_t end, int points_end,
+                            const std::string& options)
 {
     std::vector<RasterStrand> batch(listed.begin() + long(begin), listed.begin() + long(end));
     const int first = batch.front().first;
     for (RasterStrand& strand : batch)
         strand.first -= first;
-    frame.listed = int(batch.size());
-    frame.points = points_end - first;
+    frame_.listed = int(batch.size());
+    frame_.points = points_end - first;
     passes_.room_for("listed", batch.size() * sizeof(RasterStrand));
-    passes_.room_for("points", size_t(frame.points) * 8 * sizeof(float));
+    passes_.room_for("points", size_t(frame_.points) * 8 * sizeof(float));
     if (near_)
-        passes_.room_for("near_light", size_t(frame.points) * NEAR_LIGHT * sizeof(cl_half));
+        passes_.room_for("near_light", size_t(frame_.points) * NEAR_LIGHT * sizeof(cl_half));
     write(passes_.device, passes_.buffers["listed"], batch);
-    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame));
-    const size_t tiles = size_t(frame.tiles_x) * size_t(frame.tiles_y);
+    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame_));
+    const size_t tiles = size_t(frame_.tiles_x) * size_t(frame_.tiles_y);
     passes_.launch("raster_points", options, batch.size());
-    passes_.launch("raster_count", "", size_t(frame.chunks));
+    passes_.launch("raster_count", "", size_t(frame_.chunks));
     passes_.launch("raster_sum", "", tiles);
     passes_.launch("raster_scan", "", 1);
     const std::vector<int> begins = read<int>(passes_.device, passes_.buffers["tile_begin"], tiles + 1);
@@ -112,70 +112,92 @@ void Rasteriser::draw_batch(RasterFrame& frame, const std::vector<RasterStrand>&
     if (pieces > most_pieces && batch.size() > 1)
     {
         const size_t middle = begin + batch.size() / 2;
-        draw_batch(frame, listed, begin, middle, listed[middle].first, options);
-        draw_batch(frame, listed, middle, end, points_end, options);
+        draw_batch(listed, begin, middle, listed[middle].first, options);
+        draw_batch(listed, middle, end, points_end, options);
         return;
     }
     if (pieces == 0)
         return;
     passes_.room_for("binned", pieces * sizeof(RasterPiece));
     passes_.room_for("half_sorted", pieces * sizeof(RasterPiece));
-    passes_.launch("raster_fill", "", size_t(frame.chunks));
+    passes_.launch("raster_fill", "", size_t(frame_.chunks));
     passes_.launch("raster_sort", "", tiles);
     passes_.launch("raster_compose", std::string(held_ ? "-D HELD" : "") + (near_ ? " -D NEAR_FIELD" : ""),
                    tiles * size_t(TILE / band(passes_.device)));
-    frame.later = 1;
+    frame_.later = 1;
     ++batches_;
     pieces_ += pieces;
     for (int tile = 0; tile < int(tiles); ++tile)
         if (begins[size_t(tile)] < begins[size_t(tile) + 1])
         {
-            const int x = tile % frame.tiles_x * TILE, y = tile / frame.tiles_x * TILE;
+            const int x = tile % frame_.tiles_x * TILE, y = tile / frame_.tiles_x * TILE;
             low_ = glm::min(low_, glm::ivec2(x, y));
-            high_ = glm::max(high_, glm::min(glm::ivec2(x, y) + TILE, glm::ivec2(frame.width, frame.height)));
+            high_ = glm::max(high_, glm::min(glm::ivec2(x, y) + TILE, glm::ivec2(frame_.width, frame_.height)));
         }
 }
 
-RasterPicture Rasteriser::draw(const RasterStrands& strands, const RasterView& view)
+static std::string strand_options(const Groom& groom)
+{
+    return fmt::format("-D NODES={}{}", groom.nodes, groom.looks.empty() ? "" : " -D VARIED");
+}
+
+const cl::Buffer& Rasteriser::measure(const RasterStrands& strands, const RasterView& view)
 try
 {
     assert(view.width == width_ && view.height == height_);
     if (solid_)
         passes_.device.queue.enqueueUnmapMemObject(passes_.buffers["solid"], std::exchange(solid_, nullptr));
     passes_.forget_times();
-    batches_ = 0;
-    pieces_ = 0;
-    low_ = glm::ivec2(view.width, view.height);
-    high_ = glm::ivec2(0);
-    const float width = mean_width(*strands.solver, strands.params, view.eye, view.pixel, view.near);
-    RasterFrame frame = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(width, least_width));
-    if (frame.strands == 0)
-        return {};
-    held_ = width > held_width;
-    near_ = strands.shaded && strands.shaded->near > 0.0f && strands.values.empty();
+    mean_width_ = mean_width(strands, view);
+    frame_ = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(mean_width_, least_width));
+    held_ = mean_width_ > held_width;
     const Groom& groom = strands.solver->groom();
+    const size_t count = size_t(frame_.strands), blocks = size_t(frame_.blocks_x) * size_t(frame_.blocks_y);
+    const cl::Buffer& pieces = passes_.room_for("pieces", std::max<size_t>(count, 1) * size_t(groom.nodes));
+    if (count == 0)
+        return pieces;
     for (const char* shared : {"drawn_position", "drawn_frame", "looks", "strands"})
         passes_.buffers[shared] = strands.solver->buffers().at(shared);
-    const size_t count = size_t(frame.strands), pixels = size_t(view.width) * size_t(view.height);
-    const size_t tiles = size_t(frame.tiles_x) * size_t(frame.tiles_y);
-    const size_t blocks = size_t(frame.blocks_x) * size_t(frame.blocks_y);
     passes_.room_for("params", sizeof(HairParams));
     passes_.room_for("frame", sizeof(RasterFrame));
     passes_.room_for("braids", strands.braids.size() * sizeof(float4));
     passes_.room_for("wave_table", 2 * kWaveSamples * sizeof(float));
     passes_.room_for("farthest", blocks * sizeof(float));
-    passes_.room_for("pieces", count * size_t(groom.nodes));
     passes_.room_for("strand_points", count * sizeof(int));
     passes_.room_for("strand_depth", count * sizeof(float));
-    passes_.room_for("counts", size_t(frame.chunks) * tiles * sizeof(int));
+    write(passes_.device, passes_.buffers["params"], std::vector<HairParams>(1, strands.params));
+    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame_));
+    write(passes_.device, passes_.buffers["braids"], strands.braids);
+    write(passes_.device, passes_.buffers["wave_table"], strands.waves);
+    passes_.launch("raster_solids", "", blocks);
+    passes_.launch("raster_measure", strand_options(groom), count);
+    return pieces;
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while measuring the strands", e.err(), e.what());
+}
+
+float Rasteriser::near_share() const { return std::clamp(mean_width_ - near_width, 0.0f, 1.0f); }
+
+RasterPicture Rasteriser::draw(const RasterStrands& strands)
+try
+{
+    batches_ = 0;
+    pieces_ = 0;
+    low_ = glm::ivec2(frame_.width, frame_.height);
+    high_ = glm::ivec2(0);
+    if (frame_.strands == 0)
+        return {};
+    const Groom& groom = strands.solver->groom();
+    const size_t count = size_t(frame_.strands), pixels = size_t(frame_.width) * size_t(frame_.height);
+    const size_t tiles = size_t(frame_.tiles_x) * size_t(frame_.tiles_y);
+    passes_.room_for("counts", size_t(frame_.chunks) * tiles * sizeof(int));
     passes_.room_for("tile_count", tiles * sizeof(int));
     passes_.room_for("tile_begin", (tiles + 1) * sizeof(int));
     passes_.room_for("picture", pixels * 4 * sizeof(cl_half));
-    write(passes_.device, passes_.buffers["params"], std::vector<HairParams>(1, strands.params));
-    write(passes_.device, passes_.buffers["frame"], std::vector<RasterFrame>(1, frame));
-    write(passes_.device, passes_.buffers["braids"], strands.braids);
-    write(passes_.device, passes_.buffers["wave_table"], strands.waves);
-    std::string options = fmt::format("-D NODES={}{}", groom.nodes, groom.looks.empty() ? "" : " -D VARIED");
+    near_ = strands.shaded && strands.shaded->near > 0.0f && strands.values.empty();
+    std::string options = strand_options(groom);
     if (!strands.values.empty())
     {
         options += " -D VALUES";
@@ -197,11 +219,9 @@ try
         }
     }
 
-    passes_.launch("raster_solids", "", blocks);
-    passes_.launch("raster_measure", options, count);
     std::vector<RasterStrand> listed;
     const std::vector<int> points = read<int>(passes_.device, passes_.buffers["strand_points"], count);
-    for (int s = 0; s < frame.strands; ++s)
+    for (int s = 0; s < frame_.strands; ++s)
         if (points[size_t(s)] > 0)
             listed.push_back({s, 0});
     if (std::accumulate(points.begin(), points.end(), size_t(0)) > most_points)
@@ -222,7 +242,7 @@ try
             listed[end].first = int(sum);
             sum += own;
         }
-        draw_batch(frame, listed, begin, end, int(sum), options);
+        draw_batch(listed, begin, end, int(sum), options);
     }
     if (batches_ == 0)
         return {};

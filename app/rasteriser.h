@@ -44,10 +44,6 @@ struct RasterStrands
     const ShadedStrands* shaded = nullptr; // colours in place of the hair's own, if they are worked out before
 };
 
-// Pixels that strands are wide on the whole. Hangs on how far the head's middle is from the eye (relative to the head's
-// origin, m), and on nothing that jumps. `pixel`, `near`: as RasterView has them.
-float mean_width(const Solver& solver, const HairParams& device_params, glm::vec3 eye, float pixel, float near);
-
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
 struct RasterPicture
 {
@@ -67,7 +63,11 @@ class Rasteriser
     // until then, on the host.
     const cl::Buffer& solid_buffer(int width, int height);
     float* solid_depth(int width, int height);
-    RasterPicture draw(const RasterStrands& strands, const RasterView& view);
+    // Looks where strands are seen: the pieces that each segment will be cut into, a byte a node, the first segment's
+    // at the second node; 0: not seen, though the view move by a pixel. Before draw().
+    const cl::Buffer& measure(const RasterStrands& strands, const RasterView& view);
+    // What has been measured last.
+    RasterPicture draw(const RasterStrands& strands);
 
     const Device& device() const { return passes_.device; }
     const Buffers& buffers() const { return passes_.buffers; } // for tests: by kernel argument
@@ -82,19 +82,21 @@ class Rasteriser
     float held_width = 2.0f;
     // Where they are, it is seen how they are lit from side to side: near_share().
     float near_width = 3.0f;
-    // Of light that comes straight from suns, the share that is drawn as it is scattered at each place across strands
-    // of such a mean width; the rest is the mean over it. It grows within a pixel more, so that none of it shows at
-    // once.
-    float near_share(float mean_width) const;
+    // Of light that comes straight from suns, the share that is to be drawn as it is scattered at each place across the
+    // strands that have been measured last; the rest is the mean over their width. It grows within a pixel from
+    // near_width on, so that none of it shows at once.
+    float near_share() const;
     // Numbers that one batch may hold; tests make them small.
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
   private:
-    void draw_batch(RasterFrame& frame, const std::vector<RasterStrand>& listed, size_t begin, size_t end,
-                    int points_end, const std::string& options);
+    void draw_batch(const std::vector<RasterStrand>& listed, size_t begin, size_t end, int points_end,
+                    const std::string& options);
 
     Passes passes_;
+    RasterFrame frame_ = {};
     float* solid_ = nullptr; // mapped, or none
+    float mean_width_ = 0.0f;
     bool held_ = false, near_ = false;
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span

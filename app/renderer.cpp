@@ -391,7 +391,7 @@ void Renderer::draw_strands(const FrameInput& frame)
 }
 
 // What the rasteriser makes of the strands, with the depth of all that has been drawn so far, over it.
-void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
+void Renderer::compose_strands(const FrameInput& frame, const RasterView& view, GLuint framebuffer)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -400,7 +400,8 @@ void Renderer::compose_strands(const RasterView& view, GLuint framebuffer)
     if (!raster_depth_.pack(rasteriser_->device(), rasteriser_->solid_buffer(view.width, view.height),
                             size_t(view.width) * size_t(view.height) * sizeof(float), [&] { read_depth(nullptr); }))
         read_depth(rasteriser_->solid_depth(view.width, view.height));
-    const RasterPicture picture = rasteriser_->draw(*rastered_, view);
+    shade_strands(frame, view.eye, rasteriser_->measure(*rastered_, view));
+    const RasterPicture picture = rasteriser_->draw(*rastered_);
     if (picture.width == 0)
         return;
     glActiveTexture(GL_TEXTURE0);
@@ -478,16 +479,9 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel - lens.y / focus;
     const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
                                               (bottom + float(part.height) * pixel) * near, near, far);
-    const RasterView view = {projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0)),
-                             eye,
-                             pixel,
-                             near,
-                             far,
-                             part.width,
-                             part.height};
-    shade(frame, view);
+    shade(frame, eye);
     FrameBlock block;
-    block.view_projection = view.view_projection;
+    block.view_projection = projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0));
     block.camera_position = F4(eye.x, eye.y, eye.z, pixel);
     block.head_row0 = info.head_row0;
     block.head_row1 = info.head_row1;
@@ -535,7 +529,8 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
                           GL_COLOR_BUFFER_BIT | (rasterised ? GL_DEPTH_BUFFER_BIT : 0), GL_NEAREST);
     }
     if (strands && rasterised)
-        compose_strands(view, scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
+        compose_strands(frame, {block.view_projection, eye, pixel, near, far, part.width, part.height},
+                        scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
 }
 
 // Samples of a choice: auto, off, 2x, 4x, 8x, within what the driver gives.
@@ -549,6 +544,7 @@ static int multisamples(int choice)
 
 const Renderer::Target& Renderer::accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part)
 {
+    strands_seen_from_.clear();
     const int samples = multisamples(frame.params.render_multisample);
     const bool depth_is_read = method_of(frame.params) == BY_OPENCL;
     const GLenum depth_format = depth_is_read ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24;

@@ -133,12 +133,13 @@ class Renderer
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame, const std::vector<float>& waves);
     void choose_level(const HairParams& params, const std::vector<char>& of_style);
-    void shade(const FrameInput& frame, const RasterView& view);
+    void shade(const FrameInput& frame, glm::vec3 eye);
+    void shade_strands(const FrameInput& frame, glm::vec3 eye, const cl::Buffer& pieces);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
     void draw_ground(const ShaderProgram& program, glm::vec3 eye);
     void draw_strands(const FrameInput& frame);
-    void compose_strands(const RasterView& view, GLuint framebuffer);
+    void compose_strands(const FrameInput& frame, const RasterView& view, GLuint framebuffer);
     void draw_guides(const FrameInput& frame);
     // All samples of a part, averaged. Returns what holds them.
     const Target& accumulate(const FrameInput& frame, int whole_width, int whole_height, Part part);
@@ -150,9 +151,9 @@ class Renderer
 
     std::filesystem::path shader_folder_;
     std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Rasteriser> rasteriser_; // none until it is asked for
-    std::unique_ptr<Shading> shading_;       // none until a level asks for it
-    std::vector<char> lit_by_, seen_from_;   // what it has worked out last
+    std::unique_ptr<Rasteriser> rasteriser_;                   // none until it is asked for
+    std::unique_ptr<Shading> shading_;                         // none until a level asks for it
+    std::vector<char> lit_by_, seen_from_, strands_seen_from_; // what it has worked out last
     std::vector<char> chosen_by_;
     LookCost look_;
     bool shaded_ = false;                                // are colours worked out for this picture?

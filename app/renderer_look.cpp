@@ -133,36 +133,45 @@ void Renderer::choose_level(const HairParams& params, const std::vector<char>& o
     chosen_by_ = of_style;
 }
 
-// Colours as they are seen from the eye, for whatever draws them.
-void Renderer::shade(const FrameInput& frame, const RasterView& view)
+// Colours as they are seen from the eye: of what is solid, and of the strands for the geometry shader.
+void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
 {
     if (!shaded_)
         return;
-    const glm::vec3 eye = view.eye;
-    const bool strands = frame.params.render_show != 1, rasterised = method_of(frame.params) == BY_OPENCL;
-    float near = 0.0f;
-    if (strands && rasterised && rastered_->values.empty())
-        near = rasteriser_->near_share(mean_width(*rastered_->solver, rastered_->params, eye, view.pixel, view.near));
     std::vector<char> from;
     append(from, eye);
     append(from, frame.kept);
-    append(from, near);
     if (from == seen_from_)
         return;
-    if (strands)
+    if (frame.params.render_show != 1 && method_of(frame.params) != BY_OPENCL)
     {
-        const ShadedStrands& shaded = shading_->shade(eye, look_.level, frame.kept, near);
-        shaded_pieces_ = shaded.pieces;
-        if (rasterised)
-            rastered_->shaded = &shaded;
-        else
-            upload_shades();
+        shaded_pieces_ = shading_->shade(eye, look_.level, frame.kept).pieces;
+        upload_shades();
     }
     const std::vector<float4> colors = shading_->lit(solid_points(frame), eye);
     glBindBuffer(GL_ARRAY_BUFFER, solid_colors_);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(colors.size() * sizeof(float4)), colors.data(), GL_STREAM_DRAW);
     look_.shade_ms = sum_of(shading_->take_times());
     seen_from_ = from;
+    strands_seen_from_.clear();
+}
+
+// Of the strands for the rasteriser, once for all samples of a part of the picture: only those that it has found are
+// seen there.
+void Renderer::shade_strands(const FrameInput& frame, glm::vec3 eye, const cl::Buffer& pieces)
+{
+    if (!shaded_)
+        return;
+    const float near = rastered_->values.empty() ? rasteriser_->near_share() : 0.0f;
+    std::vector<char> from;
+    append(from, eye);
+    append(from, frame.kept);
+    append(from, near);
+    if (from == strands_seen_from_)
+        return;
+    rastered_->shaded = &shading_->shade(eye, look_.level, frame.kept, &pieces, near);
+    look_.shade_ms += sum_of(shading_->take_times());
+    strands_seen_from_ = from;
 }
 
 // For the geometry shader: rows of kShadesInRow colours.

@@ -338,7 +338,7 @@ void Shading::find_front(glm::vec3 eye)
     follow(volume_, "eye_", 1, "-D FRONT");
 }
 
-const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept, float near)
+const ShadedStrands& Shading::shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces, float near)
 try
 {
     const size_t strands = size_t(volume_.strands);
@@ -350,6 +350,11 @@ try
     shaded_.colors =
         passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
     std::string options = options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY);
+    if (pieces)
+    {
+        options += " -D CULLED";
+        passes_.buffers["pieces"] = *pieces;
+    }
     if (shaded_.near > 0.0f)
     {
         options += " -D NEAR_FIELD";

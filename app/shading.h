@@ -33,8 +33,10 @@ class Shading
     // Follows the light of a scene. Throws Error where the device refuses.
     void light(const LitScene& scene);
     // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn;
-    // `near`: of the light straight from suns, the share that is left to the rasteriser, at levels above LOOK_KARIS.
-    const ShadedStrands& shade(glm::vec3 eye, int level, float kept, float near = 0.0f);
+    // `pieces`, as Rasteriser::measure() has them: what is seen, if only that need be right; `near`: of the light
+    // straight from suns, the share that is left to the rasteriser, at levels above LOOK_KARIS.
+    const ShadedStrands& shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces = nullptr,
+                               float near = 0.0f);
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
 

@@ -103,6 +103,18 @@ static inline Crossing crossing_at(const ShareCurve* curves, real tip, Inclined 
     return c;
 }
 
+#ifdef CULLED
+// Is any segment seen that places from `first` to `last` colour? `pieces`: of a strand's segments, by raster_measure.
+// Who draws a segment reads the place after its last one, too.
+static inline bool is_seen(global const uchar* pieces, int first, int last)
+{
+    bool seen = false;
+    for (int k = max(first - 2, 0) / PIECES; k <= min(last / PIECES, NODES - 3); ++k)
+        seen |= pieces[k + 1] > 0;
+    return seen;
+}
+#endif
+
 kernel void look_shade(global const float4* places, global const StrandLook* looks,
                        global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
                        constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
@@ -111,6 +123,9 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
                        global const float* shares,
 #ifdef NEAR_FIELD
                        global ushort* straight_light,
+#endif
+#ifdef CULLED
+                       global const uchar* pieces,
 #endif
                        global uint2* shaded)
 {
@@ -141,6 +156,10 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
     const size_t all = (size_t)volume_voxels(volume);
     for (int i = 0; i < count; i += WIDTH)
     {
+#ifdef CULLED
+        if (!is_seen(pieces + strand * NODES, i, min(i + WIDTH, count) - 1))
+            continue;
+#endif
         float px[WIDTH], py[WIDTH], pz[WIDTH], wx[WIDTH], wy[WIDTH], wz[WIDTH], shares_along[WIDTH];
         for (int lane = 0; lane < WIDTH; ++lane)
         {

@@ -1,5 +1,6 @@
 // How many pieces each segment of a strand is cut into: as many as its bend on screen asks for, none where it lies
 // outside of the view or behind what is solid. Work-item: a strand; lanes: its segments.
+#include "drawn_lanes.h"
 #include "raster_strand.h"
 
 static inline real clip_of(float4 row, real x, real y, real z) { return row.x * x + row.y * y + row.z * z + row.w; }
@@ -12,8 +13,6 @@ static inline bool is_hidden(int x0, int x1, int y0, int y1, float depth, global
     y0 = max(y0, 0) / BLOCK;
     x1 = min(x1 / BLOCK, frame->blocks_x - 1);
     y1 = min(y1 / BLOCK, frame->blocks_y - 1);
-    if ((x1 - x0 + 1) * (y1 - y0 + 1) > 16)
-        return false;
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x)
             if (depth < farthest[y * frame->blocks_x + x])
@@ -36,17 +35,15 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
     const float wider = widening(strand, frame);
     const float4 thick = params->look_width_along, share = params->wave_along;
     const float most_laid = fmax(fmax(share.x, share.y), fmax(share.z, share.w));
-    float most = most_laid * (look.laid.normal_amplitude + look.laid.binormal_amplitude + look.laid.curl +
-                              look.laid.frizz) +
-                 0.5f * wider * look.width * fmax(fmax(thick.x, thick.y), fmax(thick.z, thick.w));
-    if (look.braid.pitch > 0.0f)
-        most += look.braid.swing + look.braid.depth + 2.0f * look.braid.plait;
+    const Waves laid = look.laid;
+    const float most = most_laid * (sqrt(laid.normal_amplitude * laid.normal_amplitude +
+                                         laid.binormal_amplitude * laid.binormal_amplitude) +
+                                    laid.curl + laid.frizz) +
+                       0.5f * wider * look.width * fmax(fmax(thick.x, thick.y), fmax(thick.z, thick.w));
 
     const float4 cw = frame->clip_w, eye = frame->eye;
     const float half_width = 0.5f * (float)frame->width, half_height = 0.5f * (float)frame->height;
-    // What lies aside moves by what it comes nearer, too.
-    const float slanted = 1.0f + eye.w * (half_width + half_height);
-    int run = 0, points = 0; // does the curve go on; how many points are there up to here
+    int run = 0, so_far = 0; // does the curve go on; how many points are there up to here
     for (int first = 1; first < NODES - 1; first += WIDTH)
     {
 #define NODE(name, k) LANES_LOAD(n.name + first + (k))
@@ -56,35 +53,49 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
         const real distance1 = NODE(distance, 0), distance2 = NODE(distance, 1);
 #undef NODE
 #define SIZE(x, y, z) sqrt((x) * (x) + (y) * (y) + (z) * (z))
-        const real bend = fmax(SIZE(x0 - 2.0f * x1 + x2, y0 - 2.0f * y1 + y2, z0 - 2.0f * z1 + z2),
-                               SIZE(x1 - 2.0f * x2 + x3, y1 - 2.0f * y2 + y3, z1 - 2.0f * z2 + z3));
+        const Points bend1 = points(x0 - 2.0f * x1 + x2, y0 - 2.0f * y1 + y2, z0 - 2.0f * z1 + z2);
+        const Points bend2 = points(x1 - 2.0f * x2 + x3, y1 - 2.0f * y2 + y3, z1 - 2.0f * z2 + z3);
+        const real bend1_squared = dot_lanes(bend1, bend1), bend2_squared = dot_lanes(bend2, bend2);
+        const real bend = sqrt(fmax(bend1_squared, bend2_squared));
         const real bulge = fmax(SIZE(x2 - x0, y2 - y0, z2 - z0), SIZE(x3 - x1, y3 - y1, z3 - z1)) * (1.0f / 3.0f);
         const real length = SIZE(x2 - x1, y2 - y1, z2 - z1);
-        const real from_eye = SIZE(0.5f * (x1 + x2) - eye.x, 0.5f * (y1 + y2) - eye.y, 0.5f * (z1 + z2) - eye.z);
+        const Points ray = points(0.5f * (x1 + x2) - eye.x, 0.5f * (y1 + y2) - eye.y, 0.5f * (z1 + z2) - eye.z);
+        const real from_eye = fmax(sqrt(dot_lanes(ray, ray)), (real)(1e-9f));
+        const real along1 = dot_lanes(bend1, ray) / from_eye, along2 = dot_lanes(bend2, ray) / from_eye;
+        const real seen_bend = sqrt(fmax(fmax(bend1_squared - along1 * along1, bend2_squared - along2 * along2), 0.0f));
         const real pixel = fmax(eye.w * from_eye, (real)(1e-9f));
 
         // A chord strays from an arc by an eighth of the second difference, and with the square of the piece's length.
+        // What it strays along the eye's ray is not seen.
         real stray = (real)(0.0f);
         if (params->smoothing_curve != CURVE_LINEAR)
-            stray = 0.125f * bend / pixel;
+            stray = 0.125f * seen_bend / pixel;
         const real segment = distance2 - distance1;
         const real at = TO_REAL(LANE_NUMBERS + first);
         stray += waves_stray(params, wave_table, look.laid, segment, (at - 0.5f) * (1.0f / (float)(NODES - 2))) / pixel;
+        real aside = (real)(most); // of the curve through the nodes
         if (look.braid.pitch > 0.0f)
+        {
             stray += braid_stray(look.braid, segment, at * (1.0f / (float)(NODES - 2))) / pixel;
+            aside += is_plaited(look.braid, at * (1.0f / (float)(NODES - 2))) *
+                     (look.braid.swing + look.braid.depth + 2.0f * look.braid.plait);
+        }
         const real wanted = ceil(sqrt(stray * (1.0f / BEND_TOLERANCE)));
 
         // A third of the way its Bezier points lie a sixth of the second differences off the chord (Bourke's cubic goes
         // further), and the curve lies between them and its ends.
         const real w1 = clip_of(cw, x1, y1, z1), w2 = clip_of(cw, x2, y2, z2);
-        const real room = (params->smoothing_curve == CURVE_CUBIC ? bulge : bend * (1.0f / 6.0f)) + most;
+        const real room = (params->smoothing_curve == CURVE_CUBIC ? bulge : bend * (1.0f / 6.0f)) + aside;
         const real nearest = fmin(w1, w2) - room;
         const real i1 = 1.0f / w1, i2 = 1.0f / w2;
         const real sx1 = half_width + half_width * clip_of(frame->clip_x, x1, y1, z1) * i1;
         const real sx2 = half_width + half_width * clip_of(frame->clip_x, x2, y2, z2) * i2;
         const real sy1 = half_height + half_height * clip_of(frame->clip_y, x1, y1, z1) * i1;
         const real sy2 = half_height + half_height * clip_of(frame->clip_y, x2, y2, z2) * i2;
-        const real about = slanted * room / (eye.w * fmax(nearest, (real)(frame->near))) + 2.0f;
+        // What lies aside moves by what it comes nearer, too.
+        const real off_middle = fmax(fabs(sx1 - half_width), fabs(sx2 - half_width)) +
+                                fmax(fabs(sy1 - half_height), fabs(sy2 - half_height));
+        const real about = (1.0f + eye.w * off_middle) * room / (eye.w * fmax(nearest, (real)(frame->near))) + 2.0f;
         const whole in_front = nearest > frame->near;
         const real low_x = fmin(sx1, sx2) - about, high_x = fmax(sx1, sx2) + about;
         const real low_y = fmin(sy1, sy2) - about, high_y = fmax(sy1, sy2) + about;
@@ -114,11 +125,11 @@ kernel void raster_measure(global const float4* drawn_position, global const flo
             pieces[strand * NODES + first + lane] = seen ? count[lane] : 0;
             // Two places between runs: what would come behind the one and before the other.
             if (seen)
-                points += count[lane] + (run ? 0 : points ? 3 : 1);
+                so_far += count[lane] + (run ? 0 : so_far ? 3 : 1);
             run = seen;
         }
     }
-    strand_points[strand] = points;
+    strand_points[strand] = so_far;
     const int middle = (NODES + 1) / 2;
     strand_depth[strand] = cw.x * n.x[middle] + cw.y * n.y[middle] + cw.z * n.z[middle] + cw.w;
 }

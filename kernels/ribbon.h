@@ -57,12 +57,20 @@ CURVE_FUNCTION REAL4 laid_across(WITH_STYLE Waves laid, REAL along, REAL distanc
 CURVE_FUNCTION REAL waves_stray(WITH_STYLE Waves laid, REAL segment, REAL along)
 {
     REAL waves_n = segment * laid.normal_frequency, waves_b = segment * laid.binormal_frequency;
-    REAL turns = segment / (STYLE(curl_pitch) * (1.0f - 0.5f * STYLE(curl_variation)));
-    REAL minds = 0.55f * segment * STYLE(frizz_frequency); // the sine that bends as much as a smooth step does
-    return 4.93f *
-           (laid.normal_amplitude * waves_n * waves_n + laid.binormal_amplitude * waves_b * waves_b +
-            laid.curl * turns * turns + 0.5f * laid.frizz * minds * minds) *
-           profile_at(STYLE(wave_along), along);
+    REAL stray_n = laid.normal_amplitude * waves_n * waves_n, stray_b = laid.binormal_amplitude * waves_b * waves_b;
+    REAL stray = sqrt(stray_n * stray_n + stray_b * stray_b);
+    if (laid.curl > 0.0f)
+    {
+        REAL less = curl_less(laid.together, STYLE(curl_variation));
+        REAL turns = segment / (STYLE(curl_pitch) * (1.0f - 0.5f * less));
+        stray += laid.curl * (1.0f - less) * turns * turns;
+    }
+    if (laid.frizz > 0.0f)
+    {
+        REAL minds = 0.55f * segment * STYLE(frizz_frequency); // the sine that bends as much as a smooth step does
+        stray += laid.frizz * frizz_size(laid.own) * minds * minds;
+    }
+    return 4.93f * stray * profile_at(STYLE(wave_along), along);
 }
 
 // The braid that a strand is plaited into, if any: laid on when it is drawn, about the line that its nodes follow
@@ -102,12 +110,14 @@ CURVE_FUNCTION REAL4 braid_at(Braid braid, REAL along)
     return FLOAT4(share * by.x, share * by.y, share * by.z, mix(whole_light, open, share));
 }
 
+// Is a segment that ends at `along` plaited? 1 or 0.
+CURVE_FUNCTION REAL is_plaited(Braid braid, REAL along) { return step(0.0f, braid.behind + along * braid.per_along); }
+
 // As waves_stray(), for a segment that ends at `along`.
 CURVE_FUNCTION REAL braid_stray(Braid braid, REAL segment, REAL along)
 {
     REAL woven = segment / braid.pitch;
-    return step(0.0f, braid.behind + along * braid.per_along) * 4.93f * (braid.swing + 4.0f * braid.depth) * woven *
-           woven;
+    return is_plaited(braid, along) * 4.93f * (braid.swing + 4.0f * braid.depth) * woven * woven;
 }
 
 // m, for a strand that is `width` wide.

@@ -120,12 +120,18 @@ CURVE_FUNCTION REAL wave_place(int seed, REAL distance, float frequency, float r
 #define CURL_LEFT 1
 #define CURL_BOTH 2
 
+// By how much less than the style's a curl's radius is.
+CURVE_FUNCTION REAL curl_less(int together, float variation)
+{
+    return variation * strand_random(together, RANDOM_CURL_VARIATION);
+}
+
 // A helix of radius 1 across the strand at `distance` (m) from the root: along the normal, along the binormal. It
 // begins `begin` turns on. What varies, varies with the seed `together`: the strand's, or that of all strands of a
 // clump; half as much as the radius does the pitch (m).
 CURVE_FUNCTION REAL4 curl_at(int together, float begin, REAL distance, float pitch, float variation, int hand)
 {
-    REAL less = variation * strand_random(together, RANDOM_CURL_VARIATION);
+    REAL less = curl_less(together, variation);
     REAL turns = distance / (pitch * (1.0f - 0.5f * less));
     if (hand == CURL_LEFT)
         turns = -turns;
@@ -148,12 +154,18 @@ CURVE_FUNCTION REAL wandering(int seed, int purpose, REAL place)
 // How far frizz has set in: at once, but from nothing, and no further at the tip.
 CURVE_FUNCTION REAL frizz_onset(REAL along) { return along * (2.0f - along); }
 
-// Frizz of size 1 at most, as curl_at. Most strands have little of it and some all, or it would be a blur.
-CURVE_FUNCTION REAL4 frizz_at(int seed, REAL distance, float frequency)
+// Of a strand's own, along each of two directions. Most have little of it and some all, or it would be a blur.
+CURVE_FUNCTION REAL frizz_size(int seed)
 {
     REAL most = strand_random(seed, RANDOM_FRIZZ);
+    return 0.70710678f * (0.2f + 0.8f * most * most);
+}
+
+// Frizz of size 1 at most, as curl_at.
+CURVE_FUNCTION REAL4 frizz_at(int seed, REAL distance, float frequency)
+{
     REAL place = distance * frequency + strand_random(seed, RANDOM_FRIZZ_SHIFT);
-    REAL own = 0.70710678f * (0.2f + 0.8f * most * most);
+    REAL own = frizz_size(seed);
     // Each turns while the other goes straight on.
     return FLOAT4(own * wandering(seed, RANDOM_FRIZZ_FIRST, place),
                   own * wandering(seed, RANDOM_FRIZZ_FIRST + 1, place + 0.5f), 0.0f, 0.0f);

@@ -113,8 +113,11 @@ int pieces(float pixel, Waves laid)
 {
     vec3 bend1 = gl_in[0].gl_Position.xyz - 2.0 * gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz;
     vec3 bend2 = gl_in[1].gl_Position.xyz - 2.0 * gl_in[2].gl_Position.xyz + gl_in[3].gl_Position.xyz;
-    // A chord strays from an arc by an eighth of the second difference, and with the square of the piece's length.
-    float stray = params.smoothing_curve == CURVE_LINEAR ? 0.0 : 0.125 * max(length(bend1), length(bend2)) / pixel;
+    // A chord strays from an arc by an eighth of the second difference, and with the square of the piece's length. What
+    // it strays along the eye's ray is not seen.
+    vec3 ray = normalize(0.5 * (gl_in[1].gl_Position.xyz + gl_in[2].gl_Position.xyz) - frame.camera_position.xyz);
+    float bend = max(length(cross(bend1, ray)), length(cross(bend2, ray)));
+    float stray = params.smoothing_curve == CURVE_LINEAR ? 0.0 : 0.125 * bend / pixel;
     float segment = node[2].normal.w - node[1].normal.w;
     stray += waves_stray(laid, segment, 0.5 * (node[1].along + node[2].along)) / pixel;
     if (braid.pitch > 0.0)

@@ -537,6 +537,41 @@ TEST_F(LookPasses, ColoursAreTheTwins)
     }
 }
 
+// Where segments are seen, the colours are those of all hair; whoever draws them reads one place beyond, too.
+TEST_F(LookPasses, WhatIsNotSeenIsLeftOut)
+{
+    const std::vector<uint16_t> all_bits = hair->bits(LOOK_DUAL_SCATTERING);
+    const cl::Buffer& colors = hair->shading.buffers().at("shaded");
+    const size_t strands = size_t(volume.strands), count = size_t(volume.places);
+    const size_t on_segment = (count - 1) / (kNodes - 2);
+    std::vector<unsigned char> pieces(strands * kNodes, 0);
+    Random random(3);
+    for (size_t s = 0; s < strands; s += 2) // of every second strand a few
+        for (size_t k = 1; k + 1 < kNodes; ++k)
+            pieces[s * kNodes + k] = (unsigned char)(random.in(0.0, 1.0) < 0.2 ? 3 : 0);
+    cl::Buffer on_device(test_device().context, CL_MEM_READ_WRITE, pieces.size());
+    write(test_device(), on_device, pieces);
+    constexpr uint16_t kUntouched = 0x7c01; // no number
+    write(test_device(), colors, std::vector<uint16_t>(all_bits.size(), kUntouched));
+    hair->shading.shade(kEye, LOOK_DUAL_SCATTERING, 1.0f, &on_device);
+    const std::vector<uint16_t> found = read<uint16_t>(test_device(), colors, all_bits.size());
+    size_t seen = 0, left_out = 0;
+    for (size_t s = 0; s < strands; ++s)
+        for (size_t place = 0; place < count; ++place)
+        {
+            bool read = false;
+            for (size_t k = 1; k + 1 < kNodes; ++k)
+                read |= pieces[s * kNodes + k] > 0 && place >= (k - 1) * on_segment && place <= k * on_segment + 1;
+            const size_t i = 4 * (s * count + place);
+            seen += read;
+            left_out += found[i] == kUntouched;
+            EXPECT_TRUE(!read || std::equal(&found[i], &found[i] + 3, &all_bits[i])) << s << ' ' << place;
+            EXPECT_TRUE(s % 2 == 0 || found[i] == kUntouched) << s << ' ' << place;
+        }
+    EXPECT_GT(seen, 100u);
+    EXPECT_GT(left_out, strands / 2 * count);
+}
+
 TEST_F(LookPasses, TheShareOfLightThatIsHandedOnIsTheTwins)
 {
     const oracle::Lit lit = hair->lit();

@@ -104,10 +104,11 @@ class Close
     // Red, green, blue, alpha of each pixel, row by row from the lowest.
     std::vector<float> draw(float near, int level = LOOK_DUAL_SCATTERING, const RasterView& view = view_along_z())
     {
-        drawn.shaded = &shading.shade(view.eye, level, 1.0f, near);
+        drawn.shaded = &shading.shade(view.eye, level, 1.0f, nullptr, near);
         const size_t count = size_t(view.width) * size_t(view.height);
         std::fill_n(rasteriser.solid_depth(view.width, view.height), count, 1.0f);
-        const RasterPicture picture = rasteriser.draw(drawn, view);
+        rasteriser.measure(drawn, view);
+        const RasterPicture picture = rasteriser.draw(drawn);
         std::vector<float> pixels(4 * count);
         const Mapped mapped(rasteriser.device(), picture.pixels, picture.bytes);
         for (int y = picture.y; y < picture.y + picture.height; ++y)
@@ -252,11 +253,14 @@ TEST(NearField, TheMeanOverThePixelsStays)
 TEST(NearField, NothingShowsAtOnce)
 {
     Close close(35.0, light_from({{1.0f, 0.3f, 0.5f}, {0.2f, 0.1f, -1.0f}}));
-    EXPECT_EQ(close.rasteriser.near_share(1.0f), 0.0f);
-    EXPECT_EQ(close.rasteriser.near_share(3.0f), 0.0f);
-    EXPECT_EQ(close.rasteriser.near_share(3.25f), 0.25f);
-    EXPECT_EQ(close.rasteriser.near_share(40.0f), 1.0f);
     const std::vector<float> far = close.draw(0.0f), some = close.draw(0.01f), near = close.draw(1.0f);
+    EXPECT_EQ(close.rasteriser.near_share(), 1.0f);
+    const std::pair<float, float> near_widths[] = {{kStrand, 0.0f}, {kStrand - 0.25f, 0.25f}, {1e9f, 0.0f}};
+    for (const auto& [from, share] : near_widths)
+    {
+        close.rasteriser.near_width = from;
+        EXPECT_NEAR(close.rasteriser.near_share(), share, 0.01f) << from; // the head's middle is a little aside
+    }
     double most_some = 0.0, most_near = 0.0;
     for (size_t i = 0; i < far.size(); ++i)
     {
