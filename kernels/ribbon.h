@@ -117,7 +117,8 @@ CURVE_FUNCTION REAL is_plaited(Braid braid, REAL along) { return step(0.0f, brai
 CURVE_FUNCTION REAL braid_stray(Braid braid, REAL segment, REAL along)
 {
     REAL woven = segment / braid.pitch;
-    return is_plaited(braid, along) * 4.93f * (braid.swing + 4.0f * braid.depth) * woven * woven;
+    float bend = sqrt(braid.swing * braid.swing + 16.0f * braid.depth * braid.depth); // to the side, and to the front
+    return is_plaited(braid, along) * 4.93f * bend * woven * woven;
 }
 
 // m, for a strand that is `width` wide.

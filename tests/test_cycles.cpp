@@ -120,7 +120,7 @@ TEST_P(Cycles, shows_the_same_light)
 
 // Wanted are 0.85 to 1.15 of the light in each channel at dual_scattering, and locks of 0.93 (brown), 0.91 (blond,
 // red), 0.90 (black) and 0.85 (white). What is looser is missed by now, and held at what is reached: blond has 0.75 of
-// the red, red under the rim light 1.33 of it and locks of 0.73, white locks of 0.80. The tracers agree on dark hair to
+// the red, red under the rim light 1.25 of it and locks of 0.75, white locks of 0.80. The tracers agree on dark hair to
 // a fiftieth; the paler hair is, the less light coif's brings through it: deep in blond hair 0.80 of the red, and 1.03
 // where light falls on it.
 INSTANTIATE_TEST_SUITE_P(All, Cycles,
