@@ -1,4 +1,5 @@
-// The points of the curves, shaded and projected. Work-item: a strand; lanes: places along it.
+// The points of the curves, shaded and projected; with NEAR_FIELD, how they are lit from side to side besides. Work-item:
+// a strand; lanes: places along it.
 //
 // First the places themselves, then all that hangs on those beside them. Where a run of pieces begins and ends, what
 // would come next is guessed from the three places there (a parabola), and marked as no point.
