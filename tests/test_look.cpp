@@ -4,6 +4,7 @@
 #include "sim/wave.h"
 #include "tests/on_device.h"
 #include "tests/oracle_look.h"
+#include "tests/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -42,12 +43,6 @@ HairParams plain_params()
     p.look_taper = p.look_variation = 0.0f;
     p.wave_normal_amplitude = p.wave_binormal_amplitude = 0.0f;
     return p;
-}
-
-float of_half(uint16_t half)
-{
-    const int exponent = half >> 10 & 31;
-    return exponent ? std::ldexp(float(1024 + (half & 1023)), exponent - 25) : std::ldexp(float(half & 1023), -24);
 }
 
 Lighting light_from(std::initializer_list<glm::vec3> directions, glm::vec3 sky = glm::vec3(0.0f))

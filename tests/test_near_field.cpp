@@ -7,6 +7,7 @@
 #include "sim/wave.h"
 #include "tests/on_device.h"
 #include "tests/oracle_look.h"
+#include "tests/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -26,31 +27,11 @@ namespace
 using oracle::Vec, oracle::xyz;
 
 constexpr int kNodes = 8;
-constexpr int kWidth = 120, kHeight = 100;                     // pixels
-constexpr float kPixel = 0.0005f;                              // m that one covers at the origin
-constexpr float kNear = 0.2f, kFar = 60.0f, kDistance = 10.0f; // m
-constexpr float kStrand = 14.0f;                               // pixels that it is wide
+constexpr int kWidth = 120, kHeight = 100; // pixels
+constexpr float kPixel = 0.0005f;          // m that one covers at the origin
+constexpr float kStrand = 14.0f;           // pixels that it is wide
 
-RasterView view_along_z()
-{
-    RasterView view;
-    view.eye = {0.0f, 0.0f, kDistance};
-    view.pixel = kPixel / kDistance;
-    view.near = kNear;
-    view.far = kFar;
-    view.width = kWidth;
-    view.height = kHeight;
-    const float x = 0.5f * kWidth * view.pixel * kNear, y = 0.5f * kHeight * view.pixel * kNear;
-    view.view_projection =
-        glm::frustum(-x, x, -y, y, kNear, kFar) * glm::lookAt(view.eye, glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
-    return view;
-}
-
-float of_half(uint16_t half)
-{
-    const int exponent = half >> 10 & 31;
-    return exponent ? std::ldexp(float(1024 + (half & 1023)), exponent - 25) : 0.0f;
-}
+RasterView close_view() { return view_along_z(kWidth, kHeight, kPixel); }
 
 HairParams params_of(float width)
 {
@@ -102,7 +83,7 @@ class Close
     }
 
     // Red, green, blue, alpha of each pixel, row by row from the lowest.
-    std::vector<float> draw(float near, int level = LOOK_DUAL_SCATTERING, const RasterView& view = view_along_z())
+    std::vector<float> draw(float near, int level = LOOK_DUAL_SCATTERING, const RasterView& view = close_view())
     {
         drawn.shaded = &shading.shade(view.eye, level, 1.0f, nullptr, near);
         const size_t count = size_t(view.width) * size_t(view.height);

@@ -7,6 +7,7 @@
 #include "sim/wave.h"
 #include "tests/on_device.h"
 #include "tests/oracle.h"
+#include "tests/pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -25,25 +26,11 @@ namespace
 {
 
 constexpr int kNodes = 6;
-constexpr int kWidth = 200, kHeight = 150;                     // pixels; the last tiles are not whole
-constexpr float kPixel = 0.001f;                               // m that one covers at the origin
-constexpr float kNear = 0.2f, kFar = 60.0f, kDistance = 10.0f; // m
+constexpr int kWidth = 200, kHeight = 150; // pixels; the last tiles are not whole
+constexpr float kPixel = 0.001f;           // m that one covers at the origin
+constexpr float kNear = kViewNear, kFar = kViewFar, kDistance = kViewDistance;
 
-// Looks at the origin from far along z, so that a millimetre is a pixel.
-RasterView far_view()
-{
-    RasterView view;
-    view.eye = {0.0f, 0.0f, kDistance};
-    view.pixel = kPixel / kDistance;
-    view.near = kNear;
-    view.far = kFar;
-    view.width = kWidth;
-    view.height = kHeight;
-    const float x = 0.5f * kWidth * view.pixel * kNear, y = 0.5f * kHeight * view.pixel * kNear;
-    view.view_projection =
-        glm::frustum(-x, x, -y, y, kNear, kFar) * glm::lookAt(view.eye, glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
-    return view;
-}
+RasterView far_view() { return view_along_z(kWidth, kHeight, kPixel); }
 
 double window_depth(double z) // of what lies at z
 {
@@ -95,12 +82,6 @@ struct Pixels
         return sum;
     }
 };
-
-float of_half(uint16_t half)
-{
-    const int exponent = half >> 10 & 31;
-    return exponent ? std::ldexp(float(1024 + (half & 1023)), exponent - 25) : 0.0f;
-}
 
 class Scene
 {
