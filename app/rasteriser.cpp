@@ -26,14 +26,12 @@ static float4 row_of(const glm::mat4& matrix, int row)
     return F4(r.x, r.y, r.z, r.w);
 }
 
-// Pixels that strands are wide on the whole. Hangs on how far the head's middle is, and on nothing that jumps.
-static float mean_width(const RasterStrands& strands, const RasterView& view)
+float mean_width(const Solver& solver, const HairParams& params, const RasterView& view)
 {
-    const Solver& solver = *strands.solver;
     const glm::vec3 center(solver.head().turn * glm::dvec3(solver.groom().center));
     const float pixel = view.pixel * std::max(glm::distance(view.eye, center), view.near); // m
-    const float4 along = strands.params.look_width_along;
-    return strands.params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / pixel;
+    const float4 along = params.look_width_along;
+    return params.look_width * 0.25f * (along.x + along.y + along.z + along.w) / pixel;
 }
 
 // Of all strands, that are drawn.
@@ -148,9 +146,9 @@ try
     if (solid_)
         passes_.device.queue.enqueueUnmapMemObject(passes_.buffers["solid"], std::exchange(solid_, nullptr));
     passes_.forget_times();
-    mean_width_ = mean_width(strands, view);
-    frame_ = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(mean_width_, least_width));
-    held_ = mean_width_ > held_width;
+    const float width = mean_width(*strands.solver, strands.params, view);
+    frame_ = frame_of(strands, view, chunks(passes_.device), strands.kept * kept_share(width, least_width));
+    held_ = width > held_width;
     const Groom& groom = strands.solver->groom();
     const size_t count = size_t(frame_.strands), blocks = size_t(frame_.blocks_x) * size_t(frame_.blocks_y);
     const cl::Buffer& pieces = passes_.room_for("pieces", std::max<size_t>(count, 1) * size_t(groom.nodes));
@@ -177,8 +175,6 @@ catch (const cl::Error& e)
 {
     throw fail("OpenCL error {} from {} while measuring the strands", e.err(), e.what());
 }
-
-float Rasteriser::near_share() const { return std::clamp(mean_width_ - near_width, 0.0f, 1.0f); }
 
 RasterPicture Rasteriser::draw(const RasterStrands& strands)
 try

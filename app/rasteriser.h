@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct ShadedStrands
 {
     cl::Buffer colors;
     int pieces = 1;                   // on a segment
-    float near = 0.0f;                // the share of light straight from suns that is not in them: near_share()
+    float near = 0.0f;                // the share of light straight from suns that is not in them
     cl::Buffer straight, frame, suns; // what raster_near.h makes it of
 };
 
@@ -43,6 +44,15 @@ struct RasterStrands
     float kept = 1.0f;                     // share of them that is drawn, each as much wider
     const ShadedStrands* shaded = nullptr; // colours in place of the hair's own, if they are worked out before
 };
+
+// Pixels that the strands which a solver has drawn last are wide on the whole, for parameters as the device reads them.
+// Hangs on how far the head's middle is, and on nothing that jumps.
+float mean_width(const Solver& solver, const HairParams& params, const RasterView& view);
+
+// Of light that comes straight from suns, the share that is to be drawn as it is scattered at each place across strands
+// so wide, where it begins at a width of `from` pixels; the rest is the mean over their width. It grows within a pixel,
+// so that none of it shows at once.
+inline float near_share(float width, float from) { return std::clamp(width - from, 0.0f, 1.0f); }
 
 // Half floats, row by row: red, green, blue, alpha, linear and premultiplied. Only the part from (x, y) on is anything.
 struct RasterPicture
@@ -80,12 +90,6 @@ class Rasteriser
     float least_width = 0.25f;
     // Where they are wider than so many, pixels put two strands that lie along each other in order: raster_compose.cl.
     float held_width = 2.0f;
-    // Where they are, it is seen how they are lit from side to side: near_share().
-    float near_width = 3.0f;
-    // Of light that comes straight from suns, the share that is to be drawn as it is scattered at each place across the
-    // strands that have been measured last; the rest is the mean over their width. It grows within a pixel from
-    // near_width on, so that none of it shows at once.
-    float near_share() const;
     // Numbers that one batch may hold; tests make them small.
     size_t most_points = size_t(1) << 21, most_pieces = size_t(1) << 22;
 
@@ -96,7 +100,6 @@ class Rasteriser
     Passes passes_;
     RasterFrame frame_ = {};
     float* solid_ = nullptr; // mapped, or none
-    float mean_width_ = 0.0f;
     bool held_ = false, near_ = false;
     int width_ = 0, height_ = 0, batches_ = 0;
     glm::ivec2 low_{0}, high_{0}; // what tiles with hair span

@@ -219,10 +219,13 @@ Renderer::Renderer(const std::filesystem::path& shader_folder)
     glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 
     glGenTextures(1, &rastered_texture_);
-    glGenTextures(1, &shades_texture_);
-    glBindTexture(GL_TEXTURE_2D, shades_texture_);
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    for (GLuint* texture : {&shades_texture_, &across_texture_})
+    {
+        glGenTextures(1, texture);
+        glBindTexture(GL_TEXTURE_2D, *texture);
+        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    }
 
     const int nobody = 0;
     glGenBuffers(1, &leader_buffer_);
@@ -250,7 +253,7 @@ Renderer::~Renderer()
          {strand_array_, mesh_array_, sphere_array_, ring_array_, ground_array_, guide_array_, empty_array_})
         glDeleteVertexArrays(1, &array);
     for (GLuint texture : {depth_texture_, wave_texture_, looks_texture_, ramp_texture_, leader_texture_,
-                           braid_texture_, rastered_texture_, shades_texture_})
+                           braid_texture_, rastered_texture_, shades_texture_, across_texture_})
         glDeleteTextures(1, &texture);
 }
 
@@ -379,6 +382,10 @@ void Renderer::draw_strands(const FrameInput& frame)
     glBindTexture(GL_TEXTURE_2D, shades_texture_);
     glUniform1i(program.uniform("shades"), 5);
     glUniform1i(program.uniform("shaded_pieces"), shaded_ ? shaded_pieces_ : 0);
+    glActiveTexture(GL_TEXTURE6);
+    glBindTexture(GL_TEXTURE_2D, across_texture_);
+    glUniform1i(program.uniform("near_light"), 6);
+    glUniform1i(program.uniform("near_places"), shaded_ ? near_places_ : 0);
     glActiveTexture(GL_TEXTURE0);
     glUniform1i(program.uniform("braided"), braided_);
     glUniform1f(program.uniform("widening"), 1.0f / frame.kept);
@@ -400,7 +407,7 @@ void Renderer::compose_strands(const FrameInput& frame, const RasterView& view, 
     if (!raster_depth_.pack(rasteriser_->device(), rasteriser_->solid_buffer(view.width, view.height),
                             size_t(view.width) * size_t(view.height) * sizeof(float), [&] { read_depth(nullptr); }))
         read_depth(rasteriser_->solid_depth(view.width, view.height));
-    shade_strands(frame, view.eye, rasteriser_->measure(*rastered_, view));
+    shade_strands(frame, view, rasteriser_->measure(*rastered_, view));
     const RasterPicture picture = rasteriser_->draw(*rastered_);
     if (picture.width == 0)
         return;
@@ -479,9 +486,16 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
     const float bottom = (float(part.y) + jitter.y - 0.5f * float(whole_height)) * pixel - lens.y / focus;
     const glm::mat4 projection = glm::frustum(left * near, (left + float(part.width) * pixel) * near, bottom * near,
                                               (bottom + float(part.height) * pixel) * near, near, far);
-    shade(frame, eye);
+    const RasterView view = {projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0)),
+                             eye,
+                             pixel,
+                             near,
+                             far,
+                             part.width,
+                             part.height};
+    shade(frame, view);
     FrameBlock block;
-    block.view_projection = projection * glm::lookAt(eye, target + aside, glm::vec3(0, 1, 0));
+    block.view_projection = view.view_projection;
     block.camera_position = F4(eye.x, eye.y, eye.z, pixel);
     block.head_row0 = info.head_row0;
     block.head_row1 = info.head_row1;
@@ -529,8 +543,7 @@ void Renderer::draw(const FrameInput& frame, int whole_width, int whole_height, 
                           GL_COLOR_BUFFER_BIT | (rasterised ? GL_DEPTH_BUFFER_BIT : 0), GL_NEAREST);
     }
     if (strands && rasterised)
-        compose_strands(frame, {block.view_projection, eye, pixel, near, far, part.width, part.height},
-                        scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
+        compose_strands(frame, view, scene_.samples > 0 ? single_.framebuffer : scene_.framebuffer);
 }
 
 // Samples of a choice: auto, off, 2x, 4x, 8x, within what the driver gives.

@@ -103,6 +103,10 @@ class Renderer
     // What draws the strands where that is left to a rule: the geometry shader where there is a graphics card for it.
     static Method method_of(const HairParams& params);
 
+    // Where strands are wider than so many pixels on the whole, it is seen how they are lit from side to side; tests
+    // change it.
+    float near_width = 3.0f;
+
   private:
     struct Programs;
     struct Target // a picture to draw into
@@ -123,7 +127,7 @@ class Renderer
     void upload_looks(const std::vector<StrandLook>& looks);
     void upload_nodes(const FrameInput& frame);
     void upload_colors(const FrameInput& frame);
-    void upload_shades();
+    void upload_shades(bool across);
     void upload_order(const FrameInput& frame, glm::vec3 eye, glm::vec3 forward);
     void upload_ground(const FrameInput& frame);
     // From a place in the pixel, and on the lens, m.
@@ -133,8 +137,9 @@ class Renderer
     // For the levels above Kajiya-Kay: renderer_look.cpp.
     void light(const FrameInput& frame, const std::vector<float>& waves);
     void choose_level(const HairParams& params, const std::vector<char>& of_style);
-    void shade(const FrameInput& frame, glm::vec3 eye);
-    void shade_strands(const FrameInput& frame, glm::vec3 eye, const cl::Buffer& pieces);
+    float across_share(const FrameInput& frame, const RasterView& view) const;
+    void shade(const FrameInput& frame, const RasterView& view);
+    void shade_strands(const FrameInput& frame, const RasterView& view, const cl::Buffer& pieces);
     std::vector<LookSurface> solid_points(const FrameInput& frame) const;
     void next_colors(size_t points);
     void draw_ground(const ShaderProgram& program, glm::vec3 eye);
@@ -158,12 +163,13 @@ class Renderer
     LookCost look_;
     bool shaded_ = false;                                // are colours worked out for this picture?
     int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
+    int near_places_ = 0;                                // of a strand, that the texture of light across has; 0: none
     std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded
     size_t colors_at_ = 0;                               // of the next thing drawn, in solid_colors_
     std::unique_ptr<RasterStrands> rastered_;            // what it draws
     glm::ivec2 rastered_size_{0};                        // of its texture
     Target scene_, single_, sum_; // multisampled or not; one sample a pixel; all samples added up
-    SharedBuffer positions_, frames_, shades_, raster_depth_, raster_pixels_;
+    SharedBuffer positions_, frames_, shades_, across_, raster_depth_, raster_pixels_;
     GLuint frame_block_ = 0, params_block_ = 0;
     GLuint strand_array_ = 0, color_buffer_ = 0, index_buffer_ = 0;
     GLuint mesh_array_ = 0, mesh_buffer_ = 0, mesh_indices_ = 0;
@@ -171,7 +177,8 @@ class Renderer
     GLuint ring_array_ = 0, ring_buffer_ = 0, ring_indices_ = 0, braid_buffer_ = 0, braid_texture_ = 0;
     GLint braided_ = 0; // strands that may be
     GLuint ground_array_ = 0, ground_buffer_ = 0, ground_indices_ = 0;
-    GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0, solid_colors_ = 0, shades_texture_ = 0;
+    GLuint guide_array_ = 0, guide_buffer_ = 0, empty_array_ = 0, solid_colors_ = 0, shades_texture_ = 0,
+           across_texture_ = 0;
     GLuint depth_texture_ = 0, wave_texture_ = 0, looks_texture_ = 0, ramp_texture_ = 0;
     GLuint leader_texture_ = 0, leader_buffer_ = 0, rastered_texture_ = 0;
     int depth_resolution_ = 0; // that the texture has room for

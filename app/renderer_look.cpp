@@ -17,6 +17,31 @@ namespace coif
 {
 
 static constexpr int kShadesInRow = 4096;
+static constexpr int kAcrossInRow = 85; // PLACES_IN_ROW of shaders/strand.frag
+
+// Places of strands as a texture has them.
+struct PlaceRows
+{
+    size_t places;
+    int in_row, texels; // of a place
+    size_t texel_bytes;
+    GLint internal;
+    GLenum format;
+};
+
+static int rows_of(size_t places, int in_row)
+{
+    return std::max(1, int((places + size_t(in_row) - 1) / size_t(in_row)));
+}
+
+static size_t places_of(const LookVolume& volume) { return size_t(volume.strands) * size_t(volume.places); }
+
+static GLint largest_texture()
+{
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return most;
+}
 static constexpr GLuint kColor = 5; // as ShaderProgram binds it
 
 template <typename T> static void append(std::vector<char>& key, const T& value)
@@ -133,22 +158,35 @@ void Renderer::choose_level(const HairParams& params, const std::vector<char>& o
     chosen_by_ = of_style;
 }
 
+// Of the light straight from suns, that is drawn across the strands; none of it where colours tell a value.
+float Renderer::across_share(const FrameInput& frame, const RasterView& view) const
+{
+    const float width = mean_width(frame.simulation->solver(), device_params(frame.params), view);
+    return frame.colors.value.empty() ? near_share(width, near_width) : 0.0f;
+}
+
 // Colours as they are seen from the eye: of what is solid, and of the strands for the geometry shader.
-void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
+void Renderer::shade(const FrameInput& frame, const RasterView& view)
 {
     if (!shaded_)
         return;
+    const bool strands = frame.params.render_show != 1 && method_of(frame.params) != BY_OPENCL;
+    float near = strands ? across_share(frame, view) : 0.0f;
+    if (rows_of(places_of(shading_->volume()), kAcrossInRow) > largest_texture())
+        near = 0.0f;
     std::vector<char> from;
-    append(from, eye);
+    append(from, view.eye);
     append(from, frame.kept);
+    append(from, near);
     if (from == seen_from_)
         return;
-    if (frame.params.render_show != 1 && method_of(frame.params) != BY_OPENCL)
+    if (strands)
     {
-        shaded_pieces_ = shading_->shade(eye, look_.level, frame.kept).pieces;
-        upload_shades();
+        const ShadedStrands& shaded = shading_->shade(view.eye, look_.level, frame.kept, nullptr, near);
+        shaded_pieces_ = shaded.pieces;
+        upload_shades(shaded.near > 0.0f);
     }
-    const std::vector<float4> colors = shading_->lit(solid_points(frame), eye);
+    const std::vector<float4> colors = shading_->lit(solid_points(frame), view.eye);
     glBindBuffer(GL_ARRAY_BUFFER, solid_colors_);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(colors.size() * sizeof(float4)), colors.data(), GL_STREAM_DRAW);
     look_.shade_ms = sum_of(shading_->take_times());
@@ -158,50 +196,62 @@ void Renderer::shade(const FrameInput& frame, glm::vec3 eye)
 
 // Of the strands for the rasteriser, once for all samples of a part of the picture: only those that it has found are
 // seen there.
-void Renderer::shade_strands(const FrameInput& frame, glm::vec3 eye, const cl::Buffer& pieces)
+void Renderer::shade_strands(const FrameInput& frame, const RasterView& view, const cl::Buffer& pieces)
 {
     if (!shaded_)
         return;
-    const float near = rastered_->values.empty() ? rasteriser_->near_share() : 0.0f;
+    const float near = across_share(frame, view);
     std::vector<char> from;
-    append(from, eye);
+    append(from, view.eye);
     append(from, frame.kept);
     append(from, near);
     if (from == strands_seen_from_)
         return;
-    rastered_->shaded = &shading_->shade(eye, look_.level, frame.kept, &pieces, near);
+    rastered_->shaded = &shading_->shade(view.eye, look_.level, frame.kept, &pieces, near);
     look_.shade_ms += sum_of(shading_->take_times());
     strands_seen_from_ = from;
 }
 
-// For the geometry shader: rows of kShadesInRow colours.
-void Renderer::upload_shades()
+// A texture of rows of so many places, from a buffer that has them one after the other.
+static void upload_rows(SharedBuffer& by, const Device& device, const cl::Buffer& from, const PlaceRows& rows)
+{
+    const size_t texels = size_t(rows.in_row) * size_t(rows.texels), bytes = texels * rows.texel_bytes;
+    const int whole = int(rows.places / size_t(rows.in_row)), rest = int(rows.places % size_t(rows.in_row));
+    glTexImage2D(GL_TEXTURE_2D, 0, rows.internal, GLsizei(texels), rows_of(rows.places, rows.in_row), 0, rows.format,
+                 GL_HALF_FLOAT, nullptr);
+    by.unpack(device, from, rows.places * size_t(rows.texels) * rows.texel_bytes,
+              [&](uintptr_t values)
+              {
+                  const auto put = [&](int row, size_t width, int height)
+                  {
+                      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, GLsizei(width), height, rows.format, GL_HALF_FLOAT,
+                                      reinterpret_cast<const void*>(values + size_t(row) * bytes));
+                  };
+                  put(0, texels, whole);
+                  if (rest > 0)
+                      put(whole, size_t(rest) * size_t(rows.texels), 1);
+              });
+}
+
+// For the geometry shader: colours, and where strands are wide the light across them.
+void Renderer::upload_shades(bool across)
 {
     const LookVolume& volume = shading_->volume();
-    const size_t count = size_t(volume.strands) * size_t(volume.places);
-    const int rows = std::max(1, int((count + kShadesInRow - 1) / kShadesInRow));
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (rows > most || kShadesInRow > most)
+    const size_t places = places_of(volume);
+    if (std::max(rows_of(places, kShadesInRow), kShadesInRow) > largest_texture())
         throw fail("this driver's textures hold too few colours for {} strands; set render.method to opencl",
                    volume.strands);
-    constexpr size_t kTexel = 8; // bytes: halves of red, green, blue and nothing
-    const int whole = int(count / kShadesInRow), rest = int(count % kShadesInRow);
     glBindTexture(GL_TEXTURE_2D, shades_texture_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, kShadesInRow, rows, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
-    shades_.unpack(shading_->device(), shading_->buffers().at("shaded"), count * kTexel,
-                   [&](uintptr_t colors)
-                   {
-                       const auto put = [&](int row, int width, int height)
-                       {
-                           const uintptr_t at = colors + size_t(row) * kShadesInRow * kTexel;
-                           glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, width, height, GL_RGBA, GL_HALF_FLOAT,
-                                           reinterpret_cast<const void*>(at));
-                       };
-                       put(0, kShadesInRow, whole);
-                       if (rest > 0)
-                           put(whole, rest, 1);
-                   });
+    // Halves of red, green, blue and nothing.
+    upload_rows(shades_, shading_->device(), shading_->buffers().at("shaded"),
+                {places, kShadesInRow, 1, 8, GL_RGBA16F, GL_RGBA});
+    near_places_ = across ? volume.places : 0;
+    if (across)
+    {
+        const cl::Buffer& cells = shading_->across();
+        glBindTexture(GL_TEXTURE_2D, across_texture_);
+        upload_rows(across_, shading_->device(), cells, {places, kAcrossInRow, NEAR_LIGHT, 2, GL_R16F, GL_RED});
+    }
 }
 
 // Points the bound array's colours at those of the next thing that is drawn, which has so many points.

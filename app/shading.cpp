@@ -371,6 +371,21 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {} while shading the strands", e.err(), e.what());
 }
 
+const cl::Buffer& Shading::across()
+try
+{
+    const size_t strands = size_t(volume_.strands);
+    const cl::Buffer& cells = passes_.room_for("near_light", std::max<size_t>(strands, 1) * size_t(volume_.places) *
+                                                                 NEAR_LIGHT * sizeof(cl_half));
+    if (strands > 0)
+        passes_.launch("look_across", options_, strands);
+    return cells;
+}
+catch (const cl::Error& e)
+{
+    throw fail("OpenCL error {} from {} while shading the strands", e.err(), e.what());
+}
+
 double Shading::handed_on_share()
 try
 {

@@ -37,6 +37,9 @@ class Shading
     // straight from suns, the share that is left to the rasteriser, at levels above LOOK_KARIS.
     const ShadedStrands& shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces = nullptr,
                                float near = 0.0f);
+    // What the light that was left to the rasteriser sends to the eye from NEAR_CELLS cells across each place, as
+    // kernels/raster.h has it, for whatever else draws the strands.
+    const cl::Buffer& across();
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
 

@@ -9,6 +9,7 @@
 //   look_sweep       the optical depth along the rays, away from their light, or how far behind what is seen
 //   look_sky         what of the sky is left in each coarse voxel, and where it comes from
 //   look_shade       the colour of each place
+//   look_across      what each sends from side to side where strands are wide and the geometry shader draws them
 //   look_share       how much of the light there comes by way of other fibres
 //   look_surface     that of the head and of other solid things
 //

@@ -35,10 +35,12 @@ in NodeData {
     float value;
 } node[4];
 
-// 6 components and gl_Position's four, times 62 vertices: well below the 1024 that GL 3.2 promises.
+// 8 components and gl_Position's four, times 62 vertices: below the 1024 that GL 3.2 promises.
 out RibbonData {
     vec3 color;  // lit
     vec3 across; // position across the ribbon and half its drawn width, both in pixels; opacity
+    float along;
+    flat int strand;
 } ribbon;
 
 Look look; // of this strand
@@ -188,6 +190,8 @@ void main()
         for (float s = -1.0; s <= 1.0; s += 2.0)
         {
             ribbon.across = vec3(s * half_drawn, half_drawn, opacity * min(width, 1.0));
+            ribbon.along = along;
+            ribbon.strand = node[1].strand;
             gl_Position = frame.view_projection * vec4(here + side * (s * half_drawn * size), 1.0);
             EmitVertex();
         }

@@ -192,6 +192,48 @@ TEST(NearField, PixelsAreTheTwins)
     }
 }
 
+// For the geometry shader: the same at the places.
+TEST(NearField, PlacesAreTheTwins)
+{
+    for (const double degrees : {25.0, 90.0, -120.0})
+    {
+        Close close(degrees, light_from({{1.0f, 0.4f, 0.5f}, {-0.3f, 0.9f, 0.2f}, {0.2f, -0.5f, -1.0f}}, 0.1f));
+        close.draw(0.7f);
+        oracle::Lit lit;
+        lit.frame = close.values<LookFrame>("near_frame", 1)[0];
+        lit.rays = close.values<LookRay>("rays", close.suns);
+        const size_t places = size_t(close.shading.volume().places);
+        const std::vector<uint16_t> straight = close.values<uint16_t>("straight_light", places * close.suns);
+        close.shading.across();
+        const std::vector<uint16_t> found = close.values<uint16_t>("near_light", places * NEAR_LIGHT);
+        double worst = 0.0;
+        for (size_t k = 0; k < places; ++k)
+        {
+            const double tip = double(k) / double(places - 1);
+            std::vector<double> shares;
+            for (size_t sun = 0; sun < close.suns; ++sun)
+                shares.push_back(of_half(straight[sun * places + k]));
+            Vec absorb;
+            for (int c = 0; c < 3; ++c)
+                absorb[c] = in_doubles::absorption_of(
+                    glm::mix(xyz(close.look.root_color)[c], xyz(close.look.tip_color)[c], tip), lit.frame.per_log);
+            const Vec p = double(kPixel) * (240.0 * tip - 100.0) * close.along;
+            for (int cell = 0; cell < NEAR_CELLS; ++cell)
+            {
+                const double from = -1.0 + 2.0 * cell / NEAR_CELLS;
+                const Vec expected =
+                    oracle::near_light(lit, p, close.along, absorb, shares, from, from + 2.0 / NEAR_CELLS);
+                for (int c = 0; c < 3; ++c)
+                    worst = std::max(
+                        worst,
+                        std::abs(of_half(found[k * NEAR_LIGHT + size_t(c * NEAR_CELLS + cell)]) / expected[c] - 1.0));
+            }
+        }
+        EXPECT_GT(places, 10u);
+        EXPECT_LT(worst, 3e-3) << degrees; // halves hold eleven bits
+    }
+}
+
 // Mean green of the pixels that a vertical strand covers within so many pixels to the right of its middle.
 double green_between(const std::vector<float>& pixels, int from, int to)
 {
@@ -235,13 +277,12 @@ TEST(NearField, NothingShowsAtOnce)
 {
     Close close(35.0, light_from({{1.0f, 0.3f, 0.5f}, {0.2f, 0.1f, -1.0f}}));
     const std::vector<float> far = close.draw(0.0f), some = close.draw(0.01f), near = close.draw(1.0f);
-    EXPECT_EQ(close.rasteriser.near_share(), 1.0f);
-    const std::pair<float, float> near_widths[] = {{kStrand, 0.0f}, {kStrand - 0.25f, 0.25f}, {1e9f, 0.0f}};
-    for (const auto& [from, share] : near_widths)
-    {
-        close.rasteriser.near_width = from;
-        EXPECT_NEAR(close.rasteriser.near_share(), share, 0.01f) << from; // the head's middle is a little aside
-    }
+    const float width = mean_width(*close.solver, close.drawn.params, close_view());
+    EXPECT_NEAR(width, kStrand, 0.01f * kStrand); // the head's middle is a little aside
+    EXPECT_EQ(near_share(kStrand, 3.0f), 1.0f);
+    EXPECT_EQ(near_share(kStrand, kStrand), 0.0f);
+    EXPECT_EQ(near_share(kStrand, kStrand - 0.25f), 0.25f);
+    EXPECT_EQ(near_share(kStrand, 1e9f), 0.0f);
     double most_some = 0.0, most_near = 0.0;
     for (size_t i = 0; i < far.size(); ++i)
     {
@@ -332,18 +373,18 @@ TEST_F(NearPictures, ThinStrandsAreDrawnAsIfThereWereNone)
     renderer = std::make_unique<Renderer>(data_folder() / "shaders"); // one that has drawn nothing wide
     const LinearImage thin = picture(close_up({"look.width=0.0002"}));
     EXPECT_FALSE(renderer->rasteriser()->buffers().contains("near_light"));
-    renderer->rasteriser()->near_width = 1e9f;
+    renderer->near_width = 1e9f;
     EXPECT_TRUE(picture(close_up({"look.width=0.0002"})).pixels == thin.pixels);
     const LinearImage flat = picture(close_up());
-    renderer->rasteriser()->near_width = 3.0f;
+    renderer->near_width = 3.0f;
     const LinearImage wide = picture(close_up());
     EXPECT_TRUE(renderer->rasteriser()->buffers().contains("near_light"));
     EXPECT_FALSE(wide.pixels == flat.pixels);
     EXPECT_TRUE(picture(close_up()).pixels == wide.pixels);
     const LinearImage told = picture(close_up({"render.colors=kind"}));
-    renderer->rasteriser()->near_width = 1e9f;
+    renderer->near_width = 1e9f;
     EXPECT_TRUE(picture(close_up({"render.colors=kind"})).pixels == told.pixels) << "a legend's colours stay";
-    renderer->rasteriser()->near_width = 3.0f;
+    renderer->near_width = 3.0f;
 }
 
 TEST_F(NearPictures, NothingIsNoNumber)
@@ -385,22 +426,32 @@ double off_by(const LinearImage& image, const LinearImage& truth, const std::vec
 
 TEST_F(NearPictures, TheyAreNearerToTracedOnes)
 {
-    const Hairstyle style = close_up();
-    simulation->set_style(style);
-    simulation->solver().draw();
-    const Camera camera = camera_of(style.params);
     const SmallPicture small = {64, 64, 8};
     TruthLimits limits;
     limits.samples = 64;
     limits.seconds = 600.0;
-    const LookTruth truth = look_truth(Tracer(truth_scene(*simulation, camera)), small, limits);
-    ASSERT_EQ(truth.samples, 64u);
-    EXPECT_GT(std::ranges::count_if(truth.hair, [](float share) { return share > 0.9f; }), 1000);
-    const LinearImage near = light_at_level(*renderer, *simulation, camera, LOOK_DUAL_SCATTERING, small);
-    renderer->rasteriser()->near_width = 1e9f;
-    const LinearImage far = light_at_level(*renderer, *simulation, camera, LOOK_DUAL_SCATTERING, small);
-    renderer->rasteriser()->near_width = 3.0f;
-    EXPECT_LT(off_by(near, truth.light, truth.hair), 0.85 * off_by(far, truth.light, truth.hair));
+    LinearImage near_by[2];
+    LookTruth truth;
+    for (const char* method : {"render.method=opencl", "render.method=geometry"})
+    {
+        const bool first = truth.samples == 0;
+        const Hairstyle style = close_up({method});
+        simulation->set_style(style);
+        simulation->solver().draw();
+        const Camera camera = camera_of(style.params);
+        if (first)
+            truth = look_truth(Tracer(truth_scene(*simulation, camera)), small, limits);
+        ASSERT_EQ(truth.samples, 64u);
+        EXPECT_GT(std::ranges::count_if(truth.hair, [](float share) { return share > 0.9f; }), 1000);
+        LinearImage& near = near_by[first ? 0 : 1];
+        near = light_at_level(*renderer, *simulation, camera, LOOK_DUAL_SCATTERING, small);
+        renderer->near_width = 1e9f;
+        const LinearImage far = light_at_level(*renderer, *simulation, camera, LOOK_DUAL_SCATTERING, small);
+        renderer->near_width = 3.0f;
+        EXPECT_LT(off_by(near, truth.light, truth.hair), 0.85 * off_by(far, truth.light, truth.hair)) << method;
+        // Both light strands from the same side, whatever they make of edges.
+        EXPECT_LT(off_by(near, near_by[0], truth.hair), 0.4 * off_by(far, near_by[0], truth.hair)) << method;
+    }
 }
 
 } // namespace
