@@ -18,6 +18,7 @@ namespace coif
 
 static constexpr int kShadesInRow = 4096;
 static constexpr int kAcrossInRow = 85; // PLACES_IN_ROW of shaders/strand.frag
+static constexpr GLuint kColor = 5;     // as ShaderProgram binds it
 
 // Places of strands as a texture has them.
 struct PlaceRows
@@ -42,12 +43,21 @@ static GLint largest_texture()
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     return most;
 }
-static constexpr GLuint kColor = 5; // as ShaderProgram binds it
 
 template <typename T> static void append(std::vector<char>& key, const T& value)
 {
     const char* bytes = reinterpret_cast<const char*>(&value);
     key.insert(key.end(), bytes, bytes + sizeof value);
+}
+
+// What colours hang on, for the same light.
+static std::vector<char> seen_key(glm::vec3 eye, float kept, float near)
+{
+    std::vector<char> key;
+    append(key, eye);
+    append(key, kept);
+    append(key, near);
+    return key;
 }
 
 // As draw_solids() draws them, one thing after the other.
@@ -172,12 +182,9 @@ void Renderer::shade(const FrameInput& frame, const RasterView& view)
         return;
     const bool strands = frame.params.render_show != 1 && method_of(frame.params) != BY_OPENCL;
     float near = strands ? across_share(frame, view) : 0.0f;
-    if (rows_of(places_of(shading_->volume()), kAcrossInRow) > largest_texture())
+    if (near > 0.0f && rows_of(places_of(shading_->volume()), kAcrossInRow) > largest_texture())
         near = 0.0f;
-    std::vector<char> from;
-    append(from, view.eye);
-    append(from, frame.kept);
-    append(from, near);
+    const std::vector<char> from = seen_key(view.eye, frame.kept, near);
     if (from == seen_from_)
         return;
     if (strands)
@@ -201,10 +208,7 @@ void Renderer::shade_strands(const FrameInput& frame, const RasterView& view, co
     if (!shaded_)
         return;
     const float near = across_share(frame, view);
-    std::vector<char> from;
-    append(from, view.eye);
-    append(from, frame.kept);
-    append(from, near);
+    const std::vector<char> from = seen_key(view.eye, frame.kept, near);
     if (from == strands_seen_from_)
         return;
     rastered_->shaded = &shading_->shade(view.eye, look_.level, frame.kept, &pieces, near);

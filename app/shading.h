@@ -34,11 +34,11 @@ class Shading
     void light(const LitScene& scene);
     // Colours of the strands as seen from `eye`, at a level above LOOK_KAJIYA_KAY. `kept`: share of them that is drawn;
     // `pieces`, as Rasteriser::measure() has them: what is seen, if only that need be right; `near`: of the light
-    // straight from suns, the share that is left to the rasteriser, at levels above LOOK_KARIS.
+    // straight from suns, the share that is left to whoever draws them, at levels above LOOK_KARIS.
     const ShadedStrands& shade(glm::vec3 eye, int level, float kept, const cl::Buffer* pieces = nullptr,
                                float near = 0.0f);
-    // What the light that was left to the rasteriser sends to the eye from NEAR_CELLS cells across each place, as
-    // kernels/raster.h has it, for whatever else draws the strands.
+    // What the light that shade() has left sends to the eye from NEAR_CELLS cells across each place, as
+    // kernels/raster.h has it, for whatever draws other points than the rasteriser's. After shade(), and before lit().
     const cl::Buffer& across();
     // Colours of points of solid things, linear, as many as there are points.
     std::vector<float4> lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
@@ -51,7 +51,7 @@ class Shading
     const LookVolume& volume() const { return volume_; }
     PassTimes take_times() { return passes_.take_times(); }
 
-    // Places times suns up to which light is left to the rasteriser, in two bytes each; tests make it small.
+    // Places times suns up to which light is left, in two bytes each; tests make it small.
     size_t most_lit_places = size_t(1) << 27;
 
   private:

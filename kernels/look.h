@@ -76,7 +76,7 @@ typedef struct LookFrame
     int surfaces; // points of solid things
     int stride;   // from strand to strand, for look_share
     float cone;   // how far light that a fibre sends one way comes from one inclination, 0 to 1: mean_on_cone()
-    float near;   // of the light that comes straight from suns, the share that the rasteriser adds: raster_near.h
+    float near;   // of the light that comes straight from suns, the share that is not in the colours: raster_near.h
 } LookFrame;
 
 // A point of something solid.

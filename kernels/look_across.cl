@@ -17,31 +17,15 @@ kernel void look_across(global const float4* places, global const StrandLook* lo
     const int count = volume->places;
     const size_t begin = (size_t)strand * (size_t)count;
     global const float4* own = places + begin;
-    const float4 eye = look_frame->eye;
     for (int i = 0; i < count; i += WIDTH)
     {
-        float px[WIDTH], py[WIDTH], pz[WIDTH], wx[WIDTH], wy[WIDTH], wz[WIDTH];
-        for (int lane = 0; lane < WIDTH; ++lane)
-        {
-            const int k = min(i + lane, count - 1);
-            const float4 p = own[k], way = own[min(k + 1, count - 1)] - own[max(k - 1, 0)];
-            px[lane] = p.x;
-            py[lane] = p.y;
-            pz[lane] = p.z;
-            wx[lane] = way.x;
-            wy[lane] = way.y;
-            wz[lane] = way.z;
-        }
-        const real tx = LANES_LOAD(wx), ty = LANES_LOAD(wy) + 1e-12f, tz = LANES_LOAD(wz);
-        const real shorten = INVERSE_SQRT(fmax(tx * tx + ty * ty + tz * tz, (real)(1e-30f)));
-        const real ex = eye.x - LANES_LOAD(px), ey = eye.y - LANES_LOAD(py), ez = eye.z - LANES_LOAD(pz);
-        const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
+        const SeenPlaces seen = load_places(own, i, count, look_frame->eye);
+        const Points t = seen.tangent, e = seen.eye;
         const whole at = min(LANE_NUMBERS + i, (whole)(count - 1));
         const real along = TO_REAL(at) * (1.0f / (float)(count - 1)), none = (real)(0.0f);
         // The last place has none behind it.
         const whole below = min(at, (whole)(count - 2));
-        store_near(reals(tx * shorten, ty * shorten, tz * shorten, none),
-                   reals(ex * near_eye, ey * near_eye, ez * near_eye, none),
+        store_near(reals(t.x, t.y, t.z, none), reals(e.x, e.y, e.z, none),
                    absorption_at(&look, profile_at(params->look_color_along, along), per_log),
                    straight_light + begin * (size_t)look_frame->suns, count, below, TO_REAL(at - below), look_frame,
                    rays, min(WIDTH, count - i), near_light + (begin + (size_t)i) * NEAR_LIGHT);

@@ -1,6 +1,6 @@
 // The colour of each place: what suns and sky bring there, what the fibre makes of it, and what others hand on to it.
 // LEVEL, a build option as looks are chosen by: 1 Karis' fit, 2 the far field of a fibre, both with shadows; 3 with dual
-// scattering. NEAR_FIELD: some of F D is left to the rasteriser, which is told D.
+// scattering. NEAR_FIELD: some of F D is left to whoever draws the strands, and D told.
 //
 //   L = sum over suns of E [D (F + B(s)) + G (F_G(v) + B(s + v))] + sky      (after Zinke 2008, eq. 23 to 27)
 //   D = exp(-tau): light that comes straight; G: light handed on by fibres, wider by v; F, F_G: the fibre for either;
@@ -160,33 +160,16 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         if (!is_seen(pieces + strand * NODES, i, min(i + WIDTH, count) - 1))
             continue;
 #endif
-        float px[WIDTH], py[WIDTH], pz[WIDTH], wx[WIDTH], wy[WIDTH], wz[WIDTH], shares_along[WIDTH];
+        float shares_along[WIDTH];
         for (int lane = 0; lane < WIDTH; ++lane)
-        {
-            const int k = min(i + lane, count - 1);
-            const float4 p = own[k], way = own[min(k + 1, count - 1)] - own[max(k - 1, 0)];
-            px[lane] = p.x;
-            py[lane] = p.y;
-            pz[lane] = p.z;
-            wx[lane] = way.x;
-            wy[lane] = way.y;
-            wz[lane] = way.z;
-            shares_along[lane] = (float)k / (float)(count - 1);
-        }
-        const Points p = points(LANES_LOAD(px), LANES_LOAD(py), LANES_LOAD(pz));
+            shares_along[lane] = (float)min(i + lane, count - 1) / (float)(count - 1);
+        const SeenPlaces place = load_places(own, i, count, eye);
+        const Points p = place.at;
         const real hidden = depth_to(eye_depth, to_eye, in_voxels(p, to_eye.direction, 0.0f, volume), volume);
         const Points seen = points(p.x + hidden * to_eye.direction.x, p.y + hidden * to_eye.direction.y,
                                    p.z + hidden * to_eye.direction.z);
-        real tx = LANES_LOAD(wx), ty = LANES_LOAD(wy) + 1e-12f, tz = LANES_LOAD(wz);
-        const real shorten = INVERSE_SQRT(fmax(tx * tx + ty * ty + tz * tz, (real)(1e-30f)));
-        tx *= shorten;
-        ty *= shorten;
-        tz *= shorten;
-        real ex = eye.x - p.x, ey = eye.y - p.y, ez = eye.z - p.z;
-        const real near_eye = INVERSE_SQRT(fmax(ex * ex + ey * ey + ez * ez, (real)(1e-30f)));
-        ex *= near_eye;
-        ey *= near_eye;
-        ez *= near_eye;
+        const real tx = place.tangent.x, ty = place.tangent.y, tz = place.tangent.z;
+        const real ex = place.eye.x, ey = place.eye.y, ez = place.eye.z;
         const real along_eye = tx * ex + ty * ey + tz * ez;
         const real along = LANES_LOAD(shares_along);
         const real tip = profile_at(params->look_color_along, along);
