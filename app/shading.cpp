@@ -69,8 +69,8 @@ static glm::vec3 sky_direction(int i)
     return {out * std::cos(turn), up, out * std::sin(turn)};
 }
 
-// About all hair and what else casts shadows, by steps of an eighth of an octave and of whole voxels, so that it does
-// not crawl as hair moves.
+// About all hair and what else casts shadows, of so many voxels whatever its shape: light costs the same in short hair
+// and in long. Voxels change by eighths of an octave, and lie at whole ones, so that they do not crawl as hair moves.
 void Shading::place_volume(const LitScene& scene)
 {
     const size_t places = size_t(volume_.strands) * size_t(volume_.places);
@@ -100,8 +100,9 @@ void Shading::place_volume(const LitScene& scene)
         low = glm::vec3(-0.1f), high = glm::vec3(0.1f);
     const glm::vec3 size = high - low;
     const float longest = std::max({size.x, size.y, size.z, 0.02f});
-    float voxel = longest / float(std::max(params_.look_volume - 2, 8));
-    voxel = std::exp2(std::ceil(std::log2(voxel) * 8.0f) / 8.0f);
+    const glm::vec3 room = glm::max(size, 0.5f * longest); // a single strand has none
+    float voxel = std::cbrt(room.x * room.y * room.z) / float(params_.look_volume);
+    voxel = std::exp2(std::round(std::log2(voxel) * 8.0f) / 8.0f);
     for (;; voxel *= std::exp2(0.125f))
     {
         const glm::vec3 corner = glm::floor(low / voxel - 0.5f), end = glm::ceil(high / voxel + 0.5f);
@@ -146,9 +147,9 @@ void Shading::follow(const LookVolume& volume, const std::string& whose, size_t 
     try
     {
         passes_.launch("look_extinction", what, cl::NDRange(lanes, rays), cl::NDRange(lanes % 64 == 0 ? 64 : 1, 1));
+        const size_t group = passes_.device.is_gpu ? 8 : 1, items = (side + width - 1) / width;
         passes_.launch("look_sweep", what == "-D FRONT" ? what : "",
-                       cl::NDRange((side + width - 1) / width, side, rays),
-                       cl::NDRange(passes_.device.is_gpu ? 8 : 1, 1, 1));
+                       cl::NDRange((items + group - 1) / group * group, side, rays), cl::NDRange(group, 1, 1));
     }
     catch (...)
     {

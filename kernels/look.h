@@ -28,8 +28,8 @@
 // is no endless stack: behind a fibre that is seen there are so many, then skin or nothing. README.md says on what
 // these were chosen, and how well they do on other hair.
 #define SEEN 0.7f
-#define OUT_TO_SUN 1.0f
-#define SKY_TO_EYE 0.3f
+#define OUT_TO_SUN 1.2f
+#define SKY_TO_EYE 0.35f
 #define FIBRES_BEHIND 7.0f
 
 // Of the gloss on skin: Fresnel at normal incidence, for an index of 1.4, and the root of the width of GGX.

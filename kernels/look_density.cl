@@ -30,7 +30,7 @@ static inline void add_piece(global int4* sums, float4 a, float4 b, constant Loo
     const float size = length(way);
     if (!(size > 1e-9f && size < 1e4f))
         return;
-    const int steps = (int)size + 1, row = volume->x, plane = volume->x * volume->y;
+    const int steps = max((int)(size + 0.5f), 1), row = volume->x, plane = volume->x * volume->y;
     const float share = size / (float)steps * volume->unit * inverse;
     const float4 along = (float4)(way / size, 1.0f), half_up = copysign((float4)(0.5f), along);
     for (int i = 0; i < steps; ++i)

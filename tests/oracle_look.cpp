@@ -43,7 +43,7 @@ std::vector<Fibres> fibre_in_voxels(const std::vector<float4>& places, const Loo
             const float4 &a = places[size_t(s * volume.places + k)], &b = places[size_t(s * volume.places + k + 1)];
             const Vec way = xyz(b) - xyz(a);
             const double length = glm::length(way);
-            const int parts = int(length / double(volume.corner.w)) + 1;
+            const int parts = std::max(int(length / double(volume.corner.w) + 0.5), 1);
             for (int i = 0; i < parts && length > 0.0; ++i)
             {
                 const double on = (i + 0.5) / parts, area = length / parts * glm::mix(double(a.w), double(b.w), on);

@@ -39,7 +39,7 @@ HairParams plain_params()
     p.strand_nodes = kNodes;
     p.grid_resolution = 16;
     p.forces_repulsion = 0.0f;
-    p.look_volume = 48;
+    p.look_volume = 44;
     p.look_taper = p.look_variation = 0.0f;
     p.wave_normal_amplitude = p.wave_binormal_amplitude = 0.0f;
     return p;
@@ -251,6 +251,44 @@ TEST_F(LookPasses, PlacesLieOnTheCurveAndAreAsWideAsItIsOpaque)
         }
     EXPECT_LT(worst, 1e-7);
     EXPECT_LT(worst_width, 1e-9);
+}
+
+// Up to twice as long as it is wide. Rounding to an eighth of an octave takes or adds a seventh of the voxels at most;
+// the voxel about hair and rows of 16 add the rest.
+TEST(LookVolumeSize, IsThatOfACubeWhateverTheShapeOfTheHair)
+{
+    const auto voxels = [](glm::vec3 stretched, int volume)
+    {
+        HairParams params = plain_params();
+        params.look_volume = volume;
+        std::vector<Tress> tresses = tangle(100);
+        for (Tress& tress : tresses)
+            for (glm::vec3& node : tress.nodes)
+                node *= stretched;
+        Hair hair(tresses, params);
+        hair.light(light_from({{0.0f, 1.0f, 0.0f}}));
+        return double(oracle::voxels_of(hair.shading.volume())) / std::pow(double(volume), 3);
+    };
+    for (const int volume : {32, 52})
+        for (const glm::vec3 shape : {glm::vec3(1.0f), glm::vec3(0.8f, 1.4f, 0.8f), glm::vec3(1.6f, 1.0f, 0.9f)})
+        {
+            const double share = voxels(shape, volume);
+            EXPECT_GT(share, 0.7) << volume << " " << shape.y;
+            EXPECT_LT(share, 2.0) << volume << " " << shape.y;
+        }
+}
+
+// It lies in no box at all; what is thinner than half its length counts as half as thick.
+TEST(LookVolumeSize, OfOneStraightStrandIsFinite)
+{
+    Tress tress;
+    for (int k = 0; k < kNodes; ++k)
+        tress.nodes.emplace_back(0.0f, 0.1f - 0.02f * float(k), 0.0f);
+    Hair hair({tress});
+    hair.light(light_from({{1.0f, 0.0f, 0.0f}}));
+    const LookVolume volume = hair.shading.volume();
+    EXPECT_GT(volume.corner.w, 0.5f * 0.2f / 44.0f);
+    EXPECT_LT(oracle::voxels_of(volume), size_t(2 * 44 * 44 * 44));
 }
 
 TEST_F(LookPasses, DensityIsTheTwinsAndLosesNothing)
@@ -765,7 +803,9 @@ TEST(Look, ASlabShadesByItsFibres)
             t.width = kFibre;
             tresses.push_back(t);
         }
-    Hair hair(tresses);
+    HairParams params = plain_params();
+    params.look_volume = 30;
+    Hair hair(tresses, params);
     hair.light(light_from({{0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.5f}, {0.8f, 1.0f, 0.0f}}));
     const double through = double(kThick) / kApart * double(kFibre) / kApart; // crossings, straight down
     const double lean = std::sqrt(1.25);
