@@ -23,6 +23,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -191,12 +193,18 @@ static void look_at_style(const Options& options)
     good.insert(call);
 }
 
-// Throws Error where -o names nothing, or a file that the command reads. `save` and `morph` may change the style that
-// they are given.
+// What -o of these commands may end in: a name of another kind is a slip, and the file that bears it may be dear.
+static const std::map<std::string, std::vector<std::string>> kEndings = {
+    {"save", {".toml"}},   {"import", {".toml"}}, {"morph", {".toml"}},
+    {"advise", {".toml"}}, {"lab", {".csv"}},     {"report", {"", ".txt", ".log", ".md", ".csv", ".json"}}};
+
+// Throws Error where -o names nothing, what the command does not write, or a file that it reads. `save` and `morph` may
+// change the style that they are given.
 static void check_output(std::vector<std::string> words, const std::string& style)
 {
     std::optional<std::string> said;
     const bool in_place = words[0] == "save" || words[0] == "morph";
+    const auto endings = kEndings.find(words[0]);
     words.erase(words.begin());
     for (size_t i = 0; i < words.size() && !said; ++i)
         if ((words[i] == "-o" || words[i] == "--output") && i + 1 < words.size())
@@ -212,6 +220,10 @@ static void check_output(std::vector<std::string> words, const std::string& styl
     if (said && said->empty())
         throw Error("-o: names no file");
     const std::string output = said.value_or("");
+    const std::string ending = std::filesystem::path(output).extension().string();
+    if (said && endings != kEndings.end() && std::ranges::find(endings->second, ending) == endings->second.end())
+        throw fail("-o {}: coif {} writes no such file; let its name end in {}", output, endings->first,
+                   endings->second.back());
     std::error_code error;
     if (!std::filesystem::is_regular_file(output, error))
         return;

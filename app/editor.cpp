@@ -388,12 +388,10 @@ void Editor::note_resets()
 
 bool Editor::frame()
 {
-    SDL_Event event;
     const bool refining = refined_ < good_samples(style_.params);
-    if (redraw_ <= 0 &&
-        SDL_WaitEventTimeout(&event, !refining && (paused_ || simulation_->solver().asleep()) ? kIdleWait : 1))
-        handle(event);
-    while (SDL_PollEvent(&event))
+    if (redraw_ <= 0)
+        SDL_WaitEventTimeout(nullptr, !refining && (paused_ || simulation_->solver().asleep()) ? kIdleWait : 1);
+    for (SDL_Event event; take_event(event, mouse_);)
         handle(event);
     const Uint64 tick = SDL_GetPerformanceCounter();
     const double seconds = double(tick - last_tick_) / double(SDL_GetPerformanceFrequency());
@@ -421,13 +419,7 @@ bool Editor::frame()
     guarded([&] { measure_quality(); });
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplSDL2_NewFrame();
-    // Where the mouse is, by the window's own events: what the server says of the whole screen may lag behind them.
-    if (SDL_GetMouseFocus() == window_.sdl())
-    {
-        int x = 0, y = 0;
-        SDL_GetMouseState(&x, &y);
-        ImGui::GetIO().MousePos = ImVec2(float(x), float(y));
-    }
+    show_mouse(mouse_, window_.sdl());
     ImGui::NewFrame();
     draw_ui(); // may change the style, which shows in this very frame
     if (!ImGui::IsAnyItemActive() && held_.what == Grab::NONE && !brightened_) // a drag is one edit

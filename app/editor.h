@@ -2,6 +2,7 @@
 #include "app/brush.h"
 #include "app/export.h"
 #include "app/history.h"
+#include "app/mouse.h"
 #include "app/leeway.h"
 #include "app/light_globe.h"
 #include "app/look_probe.h"
@@ -260,6 +261,7 @@ class Editor
     bool settings_told_ = false;
     Camera camera_;
     PanelState panel_;
+    Mouse mouse_;
     Grab held_;
     Brush brush_;
     Stroke stroke_;

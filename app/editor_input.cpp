@@ -148,9 +148,7 @@ void Editor::handle_mouse(const SDL_Event& event)
     }
     else if (event.type == SDL_MOUSEWHEEL)
     {
-        int x = 0, y = 0;
-        SDL_GetMouseState(&x, &y);
-        if (const auto light = lights_shown_ ? light_under(x, y) : std::nullopt)
+        if (const auto light = lights_shown_ ? light_under(mouse_.x, mouse_.y) : std::nullopt)
             brighten_light(*light, event.wheel.y);
         else
             zoom(camera_, event.wheel.y);

@@ -52,15 +52,21 @@ const Edit& go_to(History& history, size_t edit)
 
 void note_save(History& history, const Hairstyle& saved)
 {
-    for (Edit& edit : history.edits)
+    const auto save = [&](Edit& edit)
     {
-        const bool same_file = edit.style.file == saved.file;
-        if (!same_file && &edit != &history.edits[history.now])
-            continue;
-        edit.style.file = saved.file; // the state on screen is what was saved, under whatever name
+        edit.style.file = saved.file;
         edit.style.text = saved.text;
         edit.saved = saved;
-    }
+    };
+    // What was done to the file on screen goes with it, under whatever name it was saved.
+    const std::filesystem::path was = history.edits[history.now].style.file;
+    for (size_t i = history.now; i < history.edits.size() && history.edits[i].style.file == was; ++i)
+        save(history.edits[i]);
+    for (size_t i = history.now; i-- > 0 && history.edits[i].style.file == was;)
+        save(history.edits[i]);
+    for (Edit& edit : history.edits)
+        if (edit.style.file == saved.file)
+            save(edit);
 }
 
 } // namespace coif

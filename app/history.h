@@ -32,7 +32,8 @@ bool note_edit(History& history, const Hairstyle& style, const Hairstyle& saved,
 // Back or forth to any state, beyond the last to the last. Returns the state to go on with.
 const Edit& go_to(History& history, size_t edit);
 
-// After a save: what is on disk now is so whichever state of that file one goes back to.
+// After a save: what is on disk now is so whichever state of that file one goes back to. Under a new name all that was
+// done since the old one was opened is the new file's, so that going back and saving leaves the old one alone.
 void note_save(History& history, const Hairstyle& saved);
 
 // "strand.length 0.25 to 0.2", "strand.length and 3 more"; empty if the two give the same hair and picture.

@@ -50,7 +50,8 @@ static cl::Device pick_device(const std::string& wish)
         }
     }
     if (names.empty())
-        throw fail("no OpenCL device is installed; on Debian: apt-get install pocl-opencl-icd");
+        throw fail("no OpenCL device answers; on Debian: apt-get install pocl-opencl-icd, and where that is there, see "
+                   "that PoCL may write its kernels: into ~/.cache/pocl, or where POCL_CACHE_DIR says");
     if (fitting.empty())
         throw fail("no OpenCL device matches '{}'; there are: {}", wish, names);
     for (const cl::Device& device : fitting)

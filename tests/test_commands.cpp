@@ -342,6 +342,21 @@ TEST_F(Commands, save_changes_what_is_asked_and_keeps_the_rest)
     EXPECT_FALSE(fs::exists(folder / "bad.toml"));
 }
 
+TEST_F(Commands, a_slip_in_the_output_costs_no_file_of_another_kind)
+{
+    write("mine.toml", "[strand]\nlength = 0.3\n");
+    write("keep.png", "a picture");
+    for (const std::string command : {"save mine.toml", "morph mine.toml bob", "import mine.hair", "lab --seconds 0.1",
+                                      "report mine.toml --seconds 0.1"})
+    {
+        const Result result = coif(command + " -o keep.png");
+        EXPECT_EQ(result.status, 1) << command;
+        EXPECT_NE(result.err.find("-o keep.png: coif " + command.substr(0, command.find(' '))), std::string::npos)
+            << result.err;
+        EXPECT_EQ(contents("keep.png"), "a picture") << command;
+    }
+}
+
 TEST_F(Commands, version_is_one_line_that_the_help_begins_with_too)
 {
     const Result result = coif("--version");

@@ -99,6 +99,30 @@ TEST_F(EditorWindow, a_slider_moved_by_the_mouse_changes_the_hair_and_the_file_w
     EXPECT_EQ(load_hairstyle("style.toml").params.strand_length, editor->style().params.strand_length);
 }
 
+// All of it arrives within one frame, as it does when one takes long.
+TEST_F(EditorWindow, a_click_is_where_the_mouse_was_though_it_has_gone_on_since)
+{
+    const auto middle = [&](const char* path, double along)
+    {
+        const WidgetPlace place = editor->panel().places.at(path);
+        return at(place.left + along * (place.right - place.left), 0.5 * (place.top + place.bottom));
+    };
+    const float lift = editor->style().params.root_lift;
+    xdotool("mousemove " + middle("strand.length", 0.8) + " click 1 mousemove " + middle("root.lift", 0.1));
+    EXPECT_TRUE(until([&] { return editor->style().params.strand_length > 0.5f; }));
+    frames(8);
+    EXPECT_EQ(editor->style().params.root_lift, lift);
+
+    // On to the picture: the press was the slider's all the same.
+    const Camera camera = editor->camera();
+    xdotool("mousemove " + middle("strand.length", 0.1) + " mousedown 1 mousemove " + middle("strand.length", 0.2) +
+            " mouseup 1 mousemove " + at(100.0, 650.0) + " click 4");
+    EXPECT_TRUE(until([&] { return editor->camera().distance != camera.distance; })) << "the wheel was the picture's";
+    EXPECT_NEAR(editor->style().params.strand_length, 0.3f, 0.15f);
+    EXPECT_EQ(editor->camera().yaw, camera.yaw);
+    EXPECT_EQ(editor->history().edits.size(), 3u);
+}
+
 TEST_F(EditorWindow, a_drag_on_a_slider_is_one_edit_that_can_be_taken_back_and_done_again)
 {
     const HairParams first = editor->style().params;

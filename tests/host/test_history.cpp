@@ -139,6 +139,32 @@ TEST(History, a_save_is_one_whichever_state_one_goes_back_to)
     EXPECT_EQ(back.style.params.strand_length, bob().params.strand_length);
 }
 
+TEST(History, a_save_under_another_name_takes_what_was_done_before_along)
+{
+    Hairstyle style = bob();
+    style.file = "first.toml";
+    History history = begin_history(style, style);
+    style.params.strand_length = 0.2f;
+    note_edit(history, style, style);
+    style.file = "second.toml"; // opened
+    note_edit(history, style, style, "opened second");
+    style.params.strand_length = 0.3f;
+    note_edit(history, style, style);
+    style.params.strand_length = 0.4f;
+    note_edit(history, style, style);
+    undo(history);
+    Hairstyle saved = history.edits[history.now].style;
+    saved.file = "third.toml";
+    note_save(history, saved);
+    EXPECT_EQ(redo(history).style.file, "third.toml");
+    undo(history);
+    const Edit& opened = undo(history);
+    EXPECT_EQ(opened.style.file, "third.toml");
+    EXPECT_EQ(opened.style.params.strand_length, 0.2f);
+    EXPECT_EQ(opened.saved.params.strand_length, 0.3f) << "it differs from what is on disk";
+    EXPECT_EQ(undo(history).style.file, "first.toml") << "another file's";
+}
+
 TEST(History, forgets_the_oldest_only)
 {
     Hairstyle style = bob();
