@@ -24,6 +24,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -255,7 +256,7 @@ static int command(std::vector<std::string> words, bool only_look)
             ->allow_extra_args(false);
         command->add_option("--variant", options.variant, "The [variant.NAME] of the style that is to be on");
         command->add_option("--random", options.random, "The style that chance makes of it, by this number")
-            ->check(CLI::NonNegativeNumber);
+            ->check(CLI::Range(0, std::numeric_limits<int>::max()));
         command->add_option("--tolerance", options.tolerance,
                             "Error of the motion that is good enough, as 1%; coif chooses what the style leaves open");
     };
@@ -304,7 +305,7 @@ static int command(std::vector<std::string> words, bool only_look)
     shot_command->add_option("--fps", sequence.fps, "Frames a second of --frames and of films")->capture_default_str();
     shot_command
         ->add_option("--turntable", sequence.turntable, "Views in a turn about the head, one a picture or a frame")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1000000));
     shot_command->add_option("--view", sequence.view, "Only this view of --turntable, from 0: one picture")
         ->needs("--turntable")
         ->excludes("--frames");

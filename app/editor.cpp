@@ -198,6 +198,8 @@ void Editor::go_back(size_t edit)
     }
     style_ = state.style;
     saved_ = state.saved;
+    if (!message_is_error_) // it was of what has just been taken back
+        message_.clear();
     apply();
     if (!difference(style_, state.style).empty()) // it cannot be had again: its meshes may be gone
         history_.now = before;
@@ -478,7 +480,8 @@ void Editor::give_way(double ms)
     const LookCost& look = renderer_->look();
     const double light_ms = std::exchange(followed_, look.followed) != look.followed ? look.light_ms : 0.0;
     leeway_.strands = int(simulation_->solver().groom().drawn.size());
-    note_frame(leeway_, ms, light_ms, held_.what != Grab::NONE || ImGui::IsAnyItemActive());
+    const bool typing = ImGui::GetIO().WantTextInput;
+    note_frame(leeway_, ms, light_ms, held_.what != Grab::NONE || (ImGui::IsAnyItemActive() && !typing));
     if (leeway_.gives() || gave)
         redraw_ = std::max(redraw_, 1);
 }

@@ -1,7 +1,10 @@
 #include "app/morph.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace coif
 {
@@ -109,6 +112,8 @@ Hairstyle morphed(const Hairstyle& from, const Hairstyle& to, double at)
             values[i] = between(info, double(a[i]), double(b[i]), at);
             if (info.kind == Kind::INT)
                 values[i] = std::round(values[i]);
+            else // to as many digits as one would write
+                values[i] = std::strtod(fmt::format("{:.6g}", values[i]).c_str(), nullptr);
             values[i] = a[i] == b[i] ? double(a[i]) : std::clamp(values[i], double(info.min), double(info.max));
         }
         set_numbers(result.params, info, values);

@@ -32,6 +32,9 @@ fs::path find_style(const std::string& name_or_path)
     std::error_code error;
     if (fs::exists(name_or_path, error))
         return name_or_path;
+    if (fs::is_symlink(name_or_path, error))
+        throw fail("{} is a link to {}, where there is no file", shown(name_or_path),
+                   shown(fs::read_symlink(name_or_path, error).string()));
     std::vector<std::string> names;
     for (const fs::path& file : preset_files())
     {

@@ -244,7 +244,9 @@ void assign(Hairstyle& style, const std::string& assignment)
     }
     catch (const toml::parse_error&)
     {
-        throw fail("--set {}: '{}' is no TOML value", shown(assignment), shown(text));
+        const bool list = info->kind == Kind::LIST || info->kind == Kind::SHAPE;
+        throw fail("--set {}: '{}' is no TOML value{}", shown(assignment), shown(text),
+                   list ? "" : fmt::format("; write it as {}, which is the default", value_text(Hairstyle(), *info)));
     }
     catch (const Error& e)
     {

@@ -551,7 +551,8 @@ TEST(Assignment, that_will_not_do_is_told_and_changes_nothing)
         {"strand.lenght=1",
          "--set strand.lenght=1: no parameter is called 'strand.lenght'; the nearest is strand.length"},
         {"strand.length=", "--set strand.length=: strand.length must be a number, not text"},
-        {"strand.length=long", "--set strand.length=long: 'long' is no TOML value"},
+        {"strand.length=long",
+         "--set strand.length=long: 'long' is no TOML value; write it as 0.25, which is the default"},
         {"strand.length=0.2\n[x]", "--set strand.length=0.2\\n[x]: '0.2\\n[x]' is more than one TOML value"},
         {"strand.length=-1", "--set strand.length=-1: strand.length is -1, but must lie in [0.002, 1.5] m"},
         {"strand.length=nan", "--set strand.length=nan: strand.length is nan, but must be a finite number"},
@@ -562,9 +563,11 @@ TEST(Assignment, that_will_not_do_is_told_and_changes_nothing)
         {"look.tip_color=#12",
          "--set look.tip_color=#12: look.tip_color must be a colour like \"#8a5a3c\" or three numbers "
          "from 0 to 1, not text"},
-        {"forces.wind=[1, 2", "--set forces.wind=[1, 2: '[1, 2' is no TOML value"},
+        {"forces.wind=[1, 2",
+         "--set forces.wind=[1, 2: '[1, 2' is no TOML value; write it as [0.0, 0.0, 0.0], which is the default"},
         {"collider=3", "--set collider=3: collider must be a list of [[collider]] tables, not a number"},
-        {"scalp.mesh=\"open", "--set scalp.mesh=\"open: '\"open' is no TOML value"},
+        {"scalp.mesh=\"open",
+         "--set scalp.mesh=\"open: '\"open' is no TOML value; write it as \"scalp.obj\", which is the default"},
     };
     for (const auto& [assignment, expected] : cases)
     {

@@ -4,6 +4,7 @@
 #include "sim/source.h"
 #include "tests/host/scratch.h"
 
+#include <cctype>
 #include <cmath>
 
 namespace coif
@@ -32,6 +33,20 @@ TEST(Morph, its_ends_are_the_two_styles)
     for (const ParamInfo& info : param_table())
         EXPECT_TRUE(same_value(last, b, info)) << info.path();
     EXPECT_EQ(last.file, a.file) << "nothing is saved over the second by mistake";
+}
+
+TEST(Morph, writes_no_more_digits_than_one_would)
+{
+    const Hairstyle a = preset("bob"), b = preset("curly");
+    const std::string text = hairstyle_text(morphed(a, b, 0.3), a.file);
+    size_t numbers = 0, digits = 0;
+    for (const char c : text + ' ')
+    {
+        digits = std::isdigit(static_cast<unsigned char>(c)) ? digits + 1 : c == '.' ? digits : 0;
+        numbers += digits == 1;
+        EXPECT_LE(digits, 8u) << text; // "0.0" and six
+    }
+    EXPECT_GT(numbers, 50u);
 }
 
 TEST(Morph, numbers_and_colours_lie_between_and_the_rest_switches_in_the_middle)
