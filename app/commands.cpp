@@ -220,19 +220,19 @@ static void check_output(std::vector<std::string> words, const std::string& styl
         }
     if (said && said->empty())
         throw Error("-o: names no file");
-    const std::string output = said.value_or("");
+    if (!said)
+        return;
+    const std::string& output = *said;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(output, error) &&
+        !(in_place && std::filesystem::equivalent(find_style(style), output, error)))
+        for (const NamedFile& read : named_files(words))
+            if (std::filesystem::equivalent(read.file, output, error))
+                throw fail("-o {}: the command reads this file, and would write over it; name another", output);
     const std::string ending = std::filesystem::path(output).extension().string();
-    if (said && endings != kEndings.end() && std::ranges::find(endings->second, ending) == endings->second.end())
+    if (endings != kEndings.end() && std::ranges::find(endings->second, ending) == endings->second.end())
         throw fail("-o {}: coif {} writes no such file; let its name end in {}", output, endings->first,
                    endings->second.back());
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(output, error))
-        return;
-    if (in_place && std::filesystem::equivalent(find_style(style), output, error))
-        return;
-    for (const NamedFile& read : named_files(words))
-        if (std::filesystem::equivalent(read.file, output, error))
-            throw fail("-o {}: the command reads this file, and would write over it; name another", output);
 }
 
 // With `only_look` nothing is done: throws Error for what cannot be, where otherwise it is told and 2 is returned.
