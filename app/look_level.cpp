@@ -1,5 +1,6 @@
 #include "app/look_level.h"
 
+#include "app/root_shares.h"
 #include "sim/median.h"
 #include "sim/tied_hair.h"
 #include "sim/wave.h"
@@ -12,9 +13,14 @@
 namespace coif
 {
 
-LitScene lit_scene(const Simulation& simulation) { return lit_scene(simulation, wave_table(simulation.params())); }
+LitScene lit_scene(const Simulation& simulation)
+{
+    const Assets& assets = simulation.assets();
+    const HairParams& p = simulation.params();
+    return lit_scene(simulation, wave_table(p), skin_places(assets, p, shares_of_roots(assets, p)));
+}
 
-LitScene lit_scene(const Simulation& simulation, std::vector<float> waves)
+LitScene lit_scene(const Simulation& simulation, std::vector<float> waves, const std::vector<SkinPlace>& skin)
 {
     const HairParams& p = simulation.params();
     const Solver& solver = simulation.solver();
@@ -24,6 +30,7 @@ LitScene lit_scene(const Simulation& simulation, std::vector<float> waves)
     scene.waves = std::move(waves);
     scene.braids = braid_values(solver.groom());
     scene.lighting = simulation.lighting();
+    scene.skin = skin_now(skin, scene.params, solver.head().turn);
     scene.low = glm::vec3(INFINITY);
     scene.high = glm::vec3(-INFINITY);
     glm::vec3 low(INFINITY), high(-INFINITY); // of the head's mesh in its own frame

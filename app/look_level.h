@@ -1,5 +1,6 @@
 #pragma once
 #include "app/shading.h"
+#include "app/skin.h"
 #include "sim/simulation.h"
 
 #include <cmath>
@@ -14,8 +15,9 @@ struct LevelError
     double left_out;
 };
 
-// The simulation's hair as it was drawn last, under the style's lights. `waves`: wave_table() of its parameters.
-LitScene lit_scene(const Simulation& simulation, std::vector<float> waves);
+// The simulation's hair as it was drawn last, under the style's lights. `waves`: wave_table() of its parameters;
+// `skin`: skin_places() of its head.
+LitScene lit_scene(const Simulation& simulation, std::vector<float> waves, const std::vector<SkinPlace>& skin);
 LitScene lit_scene(const Simulation& simulation);
 
 // Of the scene that `shading` has followed the light of, from the cheapest to the dearest.

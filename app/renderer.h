@@ -3,6 +3,7 @@
 #include "app/gl_sharing.h"
 #include "app/ground.h"
 #include "app/image.h"
+#include "app/skin.h"
 #include "app/strand_colors.h"
 #include "sim/lights.h"
 #include "sim/simulation.h"
@@ -165,6 +166,7 @@ class Renderer
     int shaded_pieces_ = 0;                              // places on a segment that the texture of colours has; 0: none
     int near_places_ = 0;                                // of a strand, that the texture of light across has; 0: none
     std::vector<float> mesh_vertices_, sphere_vertices_; // as they are uploaded
+    std::vector<SkinPlace> skin_;                        // of the same mesh
     size_t colors_at_ = 0;                               // of the next thing drawn, in solid_colors_
     std::unique_ptr<RasterStrands> rastered_;            // what it draws
     glm::ivec2 rastered_size_{0};                        // of its texture

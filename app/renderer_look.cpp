@@ -74,7 +74,7 @@ std::vector<LookSurface> Renderer::solid_points(const FrameInput& frame) const
     const auto add = [&](glm::vec3 at, glm::vec3 n, float gloss, glm::vec3 albedo, float under_skin)
     {
         points.push_back(
-            {F4(at.x, at.y, at.z, 1.0f), F4(n.x, n.y, n.z, gloss), F4(albedo.x, albedo.y, albedo.z, under_skin)});
+            {F4(at.x, at.y, at.z, LIT_ABOVE), F4(n.x, n.y, n.z, gloss), F4(albedo.x, albedo.y, albedo.z, under_skin)});
     };
     const auto rgb = [](const float4& c) { return glm::vec3(c.x, c.y, c.z); };
     const auto normalized = [](glm::vec3 n)
@@ -147,7 +147,7 @@ void Renderer::light(const FrameInput& frame, const std::vector<float>& waves)
     if (key == lit_by_)
         return;
     lit_by_.clear(); // what is there is lost if this fails
-    LitScene scene = lit_scene(*frame.simulation, waves);
+    LitScene scene = lit_scene(*frame.simulation, waves, skin_);
     scene.params = params;
     scene.lighting = frame.lighting;
     shading_->light(scene);

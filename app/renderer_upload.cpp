@@ -64,6 +64,7 @@ void Renderer::upload_mesh(const FrameInput& frame)
     mesh_key_ = key;
     const glm::vec3 offset(p.head_offset.x, p.head_offset.y, p.head_offset.z);
     const std::vector<float> roots = shares_of_roots(assets, p);
+    skin_ = skin_places(assets, p, roots);
     std::vector<float>& vertices = mesh_vertices_;
     vertices.clear();
     vertices.reserve(assets.head.positions.size() * 7);

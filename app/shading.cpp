@@ -1,6 +1,7 @@
 #include "app/shading.h"
 
 #include "app/fibre_shares.h"
+#include "app/skin.h"
 #include "sim/error.h"
 #include "sim/hair_color.h"
 
@@ -128,6 +129,9 @@ void Shading::place_volume(const LitScene& scene)
 }
 
 static size_t voxels_of(const LookVolume& v) { return size_t(v.x) * size_t(v.y) * size_t(v.z); }
+// With STEPS more on all sides.
+static size_t stepped_rows(const LookVolume& v) { return size_t(v.y + 2 * STEPS) * size_t(v.z + 2 * STEPS); }
+static size_t stepped_voxels(const LookVolume& v) { return size_t(v.x + 2 * STEPS) * stepped_rows(v); }
 
 // Extinction along so many rays through the volume that kernels read, and what the sweep finds. `whose` goes before the
 // names of the rays and of both.
@@ -205,7 +209,26 @@ void Shading::sweep(const Lighting& lighting)
     }
     swap_volumes();
     const size_t width = size_t(passes_.device.width);
+    passes_.room_for("steps", stepped_voxels(coarse_) * 5 * sizeof(float));
+    passes_.launch("look_steps", "", stepped_rows(coarse_));
     passes_.launch("look_sky", options_, cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),
+                   cl::NDRange(1, 1, 1));
+}
+
+// What the skin in each coarse voxel sends out, and how much of it comes to each.
+void Shading::send_back(const std::vector<LookSurface>& skin)
+{
+    const SkinInVoxels found = skin_in_voxels(skin, coarse_);
+    skin_ = !found.points.empty();
+    if (!skin_)
+        return;
+    light_surfaces(found.points, glm::vec3(0.0f));
+    const size_t coarse = voxels_of(coarse_), width = size_t(passes_.device.width);
+    passes_.fill("skin_in", found.in_voxel);
+    passes_.room_for("skin_light", stepped_voxels(coarse_) * 3 * sizeof(float));
+    passes_.room_for("bounced", coarse * 16 * sizeof(float));
+    passes_.launch("look_skin", "", stepped_rows(coarse_));
+    passes_.launch("look_bounce", "", cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),
                    cl::NDRange(1, 1, 1));
 }
 
@@ -296,6 +319,7 @@ try
     passes_.launch("look_volume", options_ + (scene.solver->body().grid ? " -D BODY_GRID" : ""),
                    cl::NDRange(size_t(volume_.x) / width, size_t(volume_.y), size_t(volume_.z)), cl::NDRange(1, 1, 1));
     sweep(scene.lighting);
+    send_back(scene.skin);
 }
 catch (const cl::Error& e)
 {
@@ -347,7 +371,13 @@ try
     shaded_.near = level > LOOK_KARIS && suns_ > 0 && lit_places <= most_lit_places ? near : 0.0f;
     look_at(eye, kept, 0, 1, shaded_.near);
     if (strands > 0)
+    {
         find_front(eye);
+        const size_t coarse = voxels_of(coarse_);
+        passes_.room_for("around", coarse * 16 * sizeof(float));
+        passes_.launch("look_around", fmt::format("-D LEVEL={}{}", level - LOOK_KAJIYA_KAY, skin_ ? " -D SKIN" : ""),
+                       coarse);
+    }
     shaded_.colors =
         passes_.room_for("shaded", std::max<size_t>(strands, 1) * size_t(volume_.places) * 2 * sizeof(cl_uint));
     std::string options = options_ + fmt::format(" -D LEVEL={}", level - LOOK_KAJIYA_KAY);
@@ -410,16 +440,21 @@ catch (const cl::Error& e)
     throw fail("OpenCL error {} from {} while following the light", e.err(), e.what());
 }
 
-std::vector<float4> Shading::lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye)
-try
+void Shading::light_surfaces(const std::vector<LookSurface>& surfaces, glm::vec3 eye)
 {
-    if (surfaces.empty())
-        return {};
     look_at(eye, 1.0f, surfaces.size());
     passes_.fill("surfaces", surfaces);
     passes_.room_for("lit", surfaces.size() * sizeof(float4));
     const size_t width = size_t(passes_.device.width);
     passes_.launch("look_surface", options_, (surfaces.size() + width - 1) / width);
+}
+
+std::vector<float4> Shading::lit(const std::vector<LookSurface>& surfaces, glm::vec3 eye)
+try
+{
+    if (surfaces.empty())
+        return {};
+    light_surfaces(surfaces, eye);
     return read<float4>(passes_.device, passes_.buffers["lit"], surfaces.size());
 }
 catch (const cl::Error& e)

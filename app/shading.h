@@ -19,7 +19,8 @@ struct LitScene
     std::vector<float> waves;       // wave_table() of sim/wave.h
     std::vector<float4> braids;     // braid_values() of sim/tied_hair.h
     Lighting lighting;
-    glm::vec3 low{0.0f}, high{0.0f}; // of what else casts shadows; low above high: nothing
+    glm::vec3 low{0.0f}, high{0.0f};    // of what else casts shadows; low above high: nothing
+    std::vector<LookSurface> skin = {}; // that sends light back into the hair; its gloss does not
 };
 
 // Light between the fibres, for the levels above Kajiya-Kay: one volume of fibre, one sweep through it for each sun,
@@ -57,8 +58,10 @@ class Shading
   private:
     void place_volume(const LitScene& scene);
     void sweep(const Lighting& lighting);
+    void send_back(const std::vector<LookSurface>& skin);
     void follow(const LookVolume& volume, const std::string& whose, size_t rays, const std::string& what);
     void find_front(glm::vec3 eye);
+    void light_surfaces(const std::vector<LookSurface>& surfaces, glm::vec3 eye);
     void look_at(glm::vec3 eye, float kept, size_t surfaces, int stride = 1, float near = 0.0f);
 
     Passes passes_;
@@ -67,6 +70,7 @@ class Shading
     HairParams params_ = {};
     glm::vec3 sky_{0.0f};
     int suns_ = 0, braided_ = 0;
+    bool skin_ = false;            // sends light back
     std::string options_;          // of the passes that read strands
     std::vector<float> table_key_; // roughness, azimuthal roughness and index that the table of shares is of
     std::vector<float> table_;

@@ -7,7 +7,11 @@
 //   look_coarse      the same in voxels three times as wide, for the sky
 //   look_extinction  what each voxel takes away from each ray's light
 //   look_sweep       the optical depth along the rays, away from their light, or how far behind what is seen
+//   look_steps       what a step through each coarse voxel leaves of light
 //   look_sky         what of the sky is left in each coarse voxel, and where it comes from
+//   look_skin        what the skin in each coarse voxel sends out
+//   look_bounce      how much of it comes to each coarse voxel, and from where
+//   look_around      both of these as one light from all around
 //   look_shade       the colour of each place
 //   look_across      what each sends from side to side where strands are wide and the geometry shader draws them
 //   look_share       how much of the light there comes by way of other fibres
@@ -21,6 +25,9 @@
 #define SKY_RAYS 26 // directions that the sky is looked at in
 #define COARSE 3    // voxels to a coarse one, each way
 
+#define BODY_DEPTH 6.0f // units of optical depth that a voxel of a body takes
+#define STEPS 4         // of a coarse voxel, that look for bodies near by and for their light
+
 // The volume smears hair over two voxels, in dense hair more than light comes through, but what is seen lies where the
 // eye's own ray meets it: light is looked up where that has come through so much optical depth (SEEN), so many voxels
 // further to the sun (fewer the further apart sun and eye are: look_shade.cl), and coarse voxels further to the eye for
@@ -30,7 +37,16 @@
 #define SEEN 0.7f
 #define OUT_TO_SUN 1.2f
 #define SKY_TO_EYE 0.35f
-#define FIBRES_BEHIND 7.0f
+#define FIBRES_BEHIND 6.0f
+
+// Hair takes so many times as much of the skin's light as its mean over coarse voxels says: what is seen of it lies on
+// the outside.
+#define SKIN_TAKEN 2.5f
+
+// Voxels off a surface that its light is looked up at: of what is drawn, so far that the body's own voxels, which are
+// smeared too, take none of it; of what sends light back, so near that the hair over it does.
+#define LIT_ABOVE 1.5f
+#define SENDS_ABOVE 0.5f
 
 // Of the gloss on skin: Fresnel at normal incidence, for an index of 1.4, and the root of the width of GGX.
 #define SKIN_MIRRORS 0.028f
@@ -82,7 +98,7 @@ typedef struct LookFrame
 // A point of something solid.
 typedef struct LookSurface
 {
-    float4 position; // m
+    float4 position; // m; w: voxels off it that light is looked up at
     float4 normal;   // w: how glossy, 0 or 1
     float4 albedo;   // linear; w: how far red light travels under the skin, 0 or 1
 } LookSurface;

@@ -70,15 +70,16 @@ static inline Points in_voxels(Points p, float4 direction, real moved, constant 
                   (p.z - corner.z) * inverse + (moved * direction.z - 0.5f));
 }
 
-// What look_sky.cl has left of a uniform sky, at a point of one lane: for light that comes straight, and for that of
-// each channel with what fibres hand on; from two sides that differ in sign. Each is told by the mean of the directions
-// that it is seen from, as what is lit there weighs them: `middle` and `aside`, `middle` and -`aside`.
-typedef struct SkyShares
+// What comes from two sides that differ in sign, at a point of one lane. Each is told by the mean of the directions that
+// it is seen from, as what is lit there weighs them: `middle` and `aside`, `middle` and -`aside`.
+typedef struct TwoSides
 {
-    float4 front, behind; // straight, red, green, blue
-} SkyShares;
+    float4 front, behind;
+} TwoSides;
 
-static inline float16 sky_at(global const float* sky, float x, float y, float z, constant LookVolume* coarse_volume)
+// Of 16 floats for each coarse voxel: the means over all directions of four values, then of those times x, y and z of
+// where they come from, times 3 (look_sky.cl).
+static inline float16 moments_at(global const float* moments, float x, float y, float z, constant LookVolume* coarse_volume)
 {
     const float4 corner = coarse_volume->corner;
     const float inverse = 1.0f / corner.w;
@@ -89,7 +90,7 @@ static inline float16 sky_at(global const float* sky, float x, float y, float z,
     const float gz = fmin(fmax((z - corner.z) * inverse - 0.5f, 0.0f), last_z);
     const int ix = (int)gx, iy = (int)gy, iz = (int)gz;
     const int row = coarse_volume->x * 16, plane = row * coarse_volume->y;
-    global const float* at = sky + iz * plane + iy * row + ix * 16;
+    global const float* at = moments + iz * plane + iy * row + ix * 16;
     const float fx = gx - (float)ix, fy = gy - (float)iy, fz = gz - (float)iz;
     const float16 low =
         mix(mix(vload16(0, at), vload16(0, at + 16), fx), mix(vload16(0, at + row), vload16(0, at + row + 16), fx), fy);
@@ -104,15 +105,15 @@ static inline float4 leaning_to(float16 moments, float4 way)
     return moments.lo.hi * way.x + moments.hi.lo * way.y + moments.hi.hi * way.z;
 }
 
-static inline SkyShares sky_shares(global const float* sky, float4 at, float4 middle, float4 aside,
-                                   constant LookVolume* coarse_volume)
+static inline TwoSides two_sides(global const float* moments, float4 at, float4 middle, float4 aside,
+                                 constant LookVolume* coarse_volume)
 {
-    const float16 found = sky_at(sky, at.x, at.y, at.z, coarse_volume);
+    const float16 found = moments_at(moments, at.x, at.y, at.z, coarse_volume);
     const float4 mean = found.lo.lo + leaning_to(found, middle), lean = leaning_to(found, aside);
-    SkyShares shares;
-    shares.front = clamp(mean + lean, 0.0f, 1.0f);
-    shares.behind = clamp(mean - lean, 0.0f, 1.0f);
-    return shares;
+    TwoSides sides;
+    sides.front = fmax(mean + lean, 0.0f);
+    sides.behind = fmax(mean - lean, 0.0f);
+    return sides;
 }
 
 #endif

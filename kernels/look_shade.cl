@@ -119,7 +119,7 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
                        global const DrawnStrand* strands, global const float4* braids, global const float* wave_table,
                        constant HairParams* params, constant LookFrame* look_frame, constant LookVolume* volume,
                        constant LookVolume* coarse_volume, constant LookRay* rays, global const float* depth,
-                       constant LookRay* eye_rays, global const float* eye_depth, global const float* sky,
+                       constant LookRay* eye_rays, global const float* eye_depth, global const float* around,
                        global const float* shares,
 #ifdef NEAR_FIELD
                        global ushort* straight_light,
@@ -233,7 +233,8 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         // through. The mean direction of a half is 2 / pi from the axis.
         const real eye_cosine = sqrt(fmax(1.0f - along_eye * along_eye, (real)(0.0f)));
         const real down = -look_frame->cone * along_eye, aside = look_frame->cone * 0.636619772f;
-        float at[3][WIDTH], cone[3][WIDTH], half_cone[3][WIDTH], before[4][WIDTH], beyond[4][WIDTH];
+        float at[3][WIDTH], cone[3][WIDTH], half_cone[3][WIDTH], before[3][WIDTH], beyond[3][WIDTH],
+            shares_through[WIDTH];
         LANES_STORE(seen.x + sky_moved * to_eye.direction.x, at[0]);
         LANES_STORE(seen.y + sky_moved * to_eye.direction.y, at[1]);
         LANES_STORE(seen.z + sky_moved * to_eye.direction.z, at[2]);
@@ -245,39 +246,33 @@ kernel void look_shade(global const float4* places, global const StrandLook* loo
         LANES_STORE(aside * (ez - tz * along_eye), half_cone[2]);
         for (int lane = 0; lane < WIDTH; ++lane)
         {
-            const SkyShares left =
-                sky_shares(sky, (float4)(at[0][lane], at[1][lane], at[2][lane], 0.0f),
-                           (float4)(cone[0][lane], cone[1][lane], cone[2][lane], 0.0f),
-                           (float4)(half_cone[0][lane], half_cone[1][lane], half_cone[2][lane], 0.0f), coarse_volume);
-            before[0][lane] = left.front.x;
-            before[1][lane] = left.front.y;
-            before[2][lane] = left.front.z;
-            before[3][lane] = left.front.w;
-            beyond[0][lane] = left.behind.x;
-            beyond[1][lane] = left.behind.y;
-            beyond[2][lane] = left.behind.z;
-            beyond[3][lane] = left.behind.w;
+            const TwoSides sides =
+                two_sides(around, (float4)(at[0][lane], at[1][lane], at[2][lane], 0.0f),
+                          (float4)(cone[0][lane], cone[1][lane], cone[2][lane], 0.0f),
+                          (float4)(half_cone[0][lane], half_cone[1][lane], half_cone[2][lane], 0.0f), coarse_volume);
+            before[0][lane] = sides.front.x;
+            before[1][lane] = sides.front.y;
+            before[2][lane] = sides.front.z;
+            beyond[0][lane] = sides.behind.x;
+            beyond[1][lane] = sides.behind.y;
+            beyond[2][lane] = sides.behind.z;
+            shares_through[lane] = sides.behind.w;
         }
         const Crossing c = crossing_at(curves, tip, inclined(eye_cosine));
-        const float4 bright = look_frame->sky;
+        const Rgb comes = rgb(LANES_LOAD(before[0]), LANES_LOAD(before[1]), LANES_LOAD(before[2]));
+        const Rgb through = rgb(LANES_LOAD(beyond[0]), LANES_LOAD(beyond[1]), LANES_LOAD(beyond[2]));
 #if LEVEL == 3
         // What comes through cannot come back as well: a white stack lets through and throws back all light, not more.
-        const Rgb through = rgb(LANES_LOAD(beyond[1]), LANES_LOAD(beyond[2]), LANES_LOAD(beyond[3]));
-        sum.r += open * bright.x *
-                 ((c.backward.r + back_albedo(c.forward.r, c.backward.r) * (1.0f - through.r)) * LANES_LOAD(before[1]) +
-                  c.forward.r * through.r);
-        sum.g += open * bright.y *
-                 ((c.backward.g + back_albedo(c.forward.g, c.backward.g) * (1.0f - through.g)) * LANES_LOAD(before[2]) +
-                  c.forward.g * through.g);
-        sum.b += open * bright.z *
-                 ((c.backward.b + back_albedo(c.forward.b, c.backward.b) * (1.0f - through.b)) * LANES_LOAD(before[3]) +
-                  c.forward.b * through.b);
+        const real dense = 1.0f - fmin(LANES_LOAD(shares_through), (real)(1.0f));
+        const Rgb back = rgb(c.backward.r + dense * back_albedo(c.forward.r, c.backward.r),
+                             c.backward.g + dense * back_albedo(c.forward.g, c.backward.g),
+                             c.backward.b + dense * back_albedo(c.forward.b, c.backward.b));
 #else
-        const real before_straight = LANES_LOAD(before[0]), beyond_straight = LANES_LOAD(beyond[0]);
-        sum.r += open * bright.x * (c.backward.r * before_straight + c.forward.r * beyond_straight);
-        sum.g += open * bright.y * (c.backward.g * before_straight + c.forward.g * beyond_straight);
-        sum.b += open * bright.z * (c.backward.b * before_straight + c.forward.b * beyond_straight);
+        const Rgb back = c.backward;
 #endif
+        sum.r += open * (back.r * comes.r + c.forward.r * through.r);
+        sum.g += open * (back.g * comes.g + c.forward.g * through.g);
+        sum.b += open * (back.b * comes.b + c.forward.b * through.b);
         uint rg[WIDTH], b[WIDTH];
         LANES_STORE(half_bits(sum.r) | half_bits(sum.g) << 16, rg);
         LANES_STORE(half_bits(sum.b), b);

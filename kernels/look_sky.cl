@@ -6,7 +6,7 @@
 #include "look_rays.h"
 
 kernel void look_sky(global const float* sky_depth, global float* sky, constant LookVolume* coarse_volume,
-                     constant LookRay* sky_rays, global const float4* forward)
+                     constant LookRay* sky_rays, global const float4* forward, global const float* steps)
 {
     const int first = (int)get_global_id(0) * WIDTH, y = (int)get_global_id(1), z = (int)get_global_id(2);
     float columns[WIDTH];
@@ -15,6 +15,8 @@ kernel void look_sky(global const float* sky_depth, global float* sky, constant 
     const real x = LANES_LOAD(columns);
     const float4 handed_on = forward[1];
     const size_t all = (size_t)volume_voxels(coarse_volume);
+    const int row = coarse_volume->x + 2 * STEPS, plane = row * (coarse_volume->y + 2 * STEPS);
+    const int own = (z + STEPS) * plane + (y + STEPS) * row + first + STEPS;
     real sums[16];
     for (int i = 0; i < 16; ++i)
         sums[i] = (real)(0.0f);
@@ -27,8 +29,16 @@ kernel void look_sky(global const float* sky_depth, global float* sky, constant 
         const whole slice = clamp(TO_WHOLE((main - (float)ray.from) * (float)ray.sign), (whole)(0),
                                   (whole)(s.count - 1));
         const real tau = depth_in_slice(sky_depth + i * all, ray, s, u, v, slice);
-        const real left[4] = {exp(-tau), exp((handed_on.x - 1.0f) * tau), exp((handed_on.y - 1.0f) * tau),
-                              exp((handed_on.z - 1.0f) * tau)};
+        real open = (real)(1.0f); // past bodies near by, which hand nothing on
+        for (int step = 1; step <= STEPS; ++step)
+        {
+            const float far = (float)step;
+            open *= LANES_LOAD(steps + own + convert_int_rte(far * ray.direction.x) +
+                               row * convert_int_rte(far * ray.direction.y) +
+                               plane * convert_int_rte(far * ray.direction.z));
+        }
+        const real left[4] = {exp(-tau), open * exp((handed_on.x - 1.0f) * tau),
+                              open * exp((handed_on.y - 1.0f) * tau), open * exp((handed_on.z - 1.0f) * tau)};
         for (int c = 0; c < 4; ++c)
         {
             sums[c] += left[c];

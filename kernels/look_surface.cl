@@ -41,7 +41,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     const int first = (int)get_global_id(0) * WIDTH;
     if (first >= points_lit)
         return;
-    float p_x[WIDTH], p_y[WIDTH], p_z[WIDTH], n_x[WIDTH], n_y[WIDTH], n_z[WIDTH], glosses[WIDTH], fars[WIDTH];
+    float p_x[WIDTH], p_y[WIDTH], p_z[WIDTH], offs[WIDTH], n_x[WIDTH], n_y[WIDTH], n_z[WIDTH], glosses[WIDTH], fars[WIDTH];
     float4 albedo[WIDTH];
     for (int lane = 0; lane < WIDTH; ++lane)
     {
@@ -49,6 +49,7 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
         p_x[lane] = s.position.x;
         p_y[lane] = s.position.y;
         p_z[lane] = s.position.z;
+        offs[lane] = s.position.w;
         n_x[lane] = s.normal.x;
         n_y[lane] = s.normal.y;
         n_z[lane] = s.normal.z;
@@ -68,8 +69,8 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     const float4 handed_on = forward[0];
     const float a2 = SKIN_ROUGH * SKIN_ROUGH * SKIN_ROUGH * SKIN_ROUGH;
 
-    // A voxel and a half off the surface: the volume holds the body itself.
-    const float off = 1.5f * volume->corner.w;
+    // Off the surface: the volume holds the body itself.
+    const real off = volume->corner.w * LANES_LOAD(offs);
     const Points above = points(p.x + off * nx, p.y + off * ny, p.z + off * nz);
     real diffuse[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, shine[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     for (int k = 0; k < look_frame->suns; ++k)
@@ -112,12 +113,14 @@ kernel void look_surface(global const LookSurface* surfaces, global float4* lit,
     for (int lane = 0; lane < WIDTH && first + lane < points_lit; ++lane)
     {
         // Lambert's cosine weighs directions about the normal; their mean is two thirds of it.
-        const SkyShares left = sky_shares(sky, (float4)(a_x[lane], a_y[lane], a_z[lane], 0.0f), (float4)(0.0f),
-                                          (float4)(n_x[lane], n_y[lane], n_z[lane], 0.0f) * (2.0f / 3.0f), coarse_volume);
+        const TwoSides sky_there =
+            two_sides(sky, (float4)(a_x[lane], a_y[lane], a_z[lane], 0.0f), (float4)(0.0f),
+                      (float4)(n_x[lane], n_y[lane], n_z[lane], 0.0f) * (2.0f / 3.0f), coarse_volume);
+        const float4 left = fmin(sky_there.front, 1.0f); // straight, red, green, blue
         const float4 bright = look_frame->sky;
         lit[first + lane] = (float4)(
-            albedo[lane].x * (out[0][lane] + bright.x * left.front.y) + out[3][lane],
-            albedo[lane].y * (out[1][lane] + bright.y * left.front.z) + out[4][lane],
-            albedo[lane].z * (out[2][lane] + bright.z * left.front.w) + out[5][lane], 1.0f);
+            albedo[lane].x * (out[0][lane] + bright.x * left.y) + out[3][lane],
+            albedo[lane].y * (out[1][lane] + bright.y * left.z) + out[4][lane],
+            albedo[lane].z * (out[2][lane] + bright.z * left.w) + out[5][lane], 1.0f);
     }
 }

@@ -5,8 +5,6 @@
 #include "look.h"
 #include "distance_grid.h"
 
-#define BODY_DEPTH 6.0f // units of optical depth that a voxel of a body takes
-
 kernel void look_volume(global const int4* fibre_sums, global float* fibre, constant LookVolume* volume,
                         constant Capsule* colliders, constant StepInfo* info
 #ifdef BODY_GRID

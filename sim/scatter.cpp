@@ -28,14 +28,14 @@ glm::vec3 shares_over_triangle(float b, float c)
     return {1.0f - b - c, b, c};
 }
 
-std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
+std::vector<Between> spread_places(const Mesh& mesh, int count, int seed)
 {
     std::vector<double> area_up_to;
     double area = 0.0;
-    for (const glm::uvec3& t : scalp.triangles)
+    for (const glm::uvec3& t : mesh.triangles)
     {
-        const glm::vec3 a = scalp.positions[t.x];
-        area += glm::length(glm::cross(scalp.positions[t.y] - a, scalp.positions[t.z] - a));
+        const glm::vec3 a = mesh.positions[t.x];
+        area += glm::length(glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a));
         area_up_to.push_back(area);
     }
     std::vector<Between> places;
@@ -44,7 +44,7 @@ std::vector<Between> spread_places(const Scalp& scalp, int count, int seed)
         // Stratified over the area, so that triangles of equal size get equal numbers.
         const double at = (i + double(random01(seed, i, kTriangle))) / count * area;
         const size_t found = size_t(std::upper_bound(area_up_to.begin(), area_up_to.end(), at) - area_up_to.begin());
-        const glm::uvec3 t = scalp.triangles[std::min(found, scalp.triangles.size() - 1)];
+        const glm::uvec3 t = mesh.triangles[std::min(found, mesh.triangles.size() - 1)];
         places.push_back({t, shares_over_triangle(random01(seed, i, kWeightA), random01(seed, i, kWeightB))});
     }
     return places;

@@ -18,9 +18,9 @@ enum GuideChoice // interpolation.guides
 // other half are folded back.
 glm::vec3 shares_over_triangle(float b, float c);
 
-// So many places spread over a scalp's triangles by area (thesis, listing 5.4). They hang on the scalp, their number
-// and the seed alone.
-std::vector<Between> spread_places(const Scalp& scalp, int count, int seed);
+// So many places spread over a mesh's triangles by area (thesis, listing 5.4). They hang on the mesh, their number and
+// the seed alone.
+std::vector<Between> spread_places(const Mesh& mesh, int count, int seed);
 
 // The scalp whose vertices carry the guides: the authored one refined as interpolation.refine says or, where all drawn
 // strands are simulated, with as many vertices strewn over it as there are strands; with hair of a file on it, with a

@@ -228,7 +228,7 @@ double march(const float* taken, const LookVolume& volume, Vec at, Vec direction
     return sum * 0.5 * volume.corner.w;
 }
 
-static std::array<double, 16> moments_at(const std::vector<float>& sky, const LookVolume& coarse, Vec p)
+static std::array<double, 16> moments_at(const std::vector<float>& of, const LookVolume& coarse, Vec p)
 {
     const Vec at = glm::clamp(in_voxels(p, coarse), Vec(0.0), Vec(coarse.x, coarse.y, coarse.z) - 1.001);
     std::array<double, 16> moments = {};
@@ -236,22 +236,74 @@ static std::array<double, 16> moments_at(const std::vector<float>& sky, const Lo
           [&](size_t voxel, double weight)
           {
               for (size_t i = 0; i < 16; ++i)
-                  moments[i] += weight * double(sky[16 * voxel + i]);
+                  moments[i] += weight * double(of[16 * voxel + i]);
           });
     return moments;
 }
 
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec middle, Vec aside)
+TwoSides two_sides(const std::vector<float>& moments, const LookVolume& coarse, Vec p, Vec middle, Vec aside)
 {
-    const std::array<double, 16> moments = moments_at(sky, coarse, p);
-    SkyLeft left;
+    const std::array<double, 16> found = moments_at(moments, coarse, p);
+    TwoSides sides;
     for (size_t c = 0; c < 4; ++c)
     {
-        const Vec lean(moments[4 + c], moments[8 + c], moments[12 + c]);
-        left.front[c] = std::clamp(moments[c] + glm::dot(lean, middle + aside), 0.0, 1.0);
-        left.behind[c] = std::clamp(moments[c] + glm::dot(lean, middle - aside), 0.0, 1.0);
+        const Vec lean(found[4 + c], found[8 + c], found[12 + c]);
+        sides.front[c] = std::max(found[c] + glm::dot(lean, middle + aside), 0.0);
+        sides.behind[c] = std::max(found[c] + glm::dot(lean, middle - aside), 0.0);
     }
-    return left;
+    return sides;
+}
+
+std::vector<Step> steps_of(const std::vector<float>& fibre, const std::vector<int>& skin_in,
+                           const std::vector<float4>& sent, const LookVolume& coarse, double self_shadow,
+                           Vec from_all_sides)
+{
+    const size_t all = voxels_of(coarse);
+    const double side = coarse.corner.w;
+    std::vector<Step> steps(all);
+    for (int z = 0; z < coarse.z; ++z)
+        for (int y = 0; y < coarse.y; ++y)
+            for (int x = 0; x < coarse.x; ++x)
+            {
+                const size_t at = voxel_at(coarse, x, y, z);
+                Step& step = steps[at];
+                const double body = fibre[4 * all + at], hair = std::max(0.0, fibre[3 * all + at] - body);
+                step.depth = self_shadow * side * 0.25 * kPi * hair;
+                step.left = glm::exp(-double(SKIN_TAKEN) * step.depth * (1.0 - from_all_sides));
+                // Of a body's voxels a ray takes BODY_DEPTH, over COARSE of them.
+                step.open = 1.0 - std::min(1.0, 0.25 * kPi * body * side / (BODY_DEPTH * COARSE));
+                int nearest = 4, found = -1;
+                for (int by = 0; by < 27 && !skin_in.empty(); ++by)
+                {
+                    const int i = by % 3 - 1, j = by / 3 % 3 - 1, k = by / 9 - 1, far = i * i + j * j + k * k;
+                    if (x + i < 0 || y + j < 0 || z + k < 0 || x + i >= coarse.x || y + j >= coarse.y ||
+                        z + k >= coarse.z)
+                        continue;
+                    const int there = skin_in[voxel_at(coarse, x + i, y + j, z + k)];
+                    if (there >= 0 && far < nearest)
+                        nearest = far, found = there;
+                }
+                if (found >= 0)
+                    step.sent = (1.0 - step.open) * step.left * xyz(sent[size_t(found)]);
+            }
+    return steps;
+}
+
+Stepped step_along(const std::vector<Step>& steps, const LookVolume& coarse, glm::ivec3 from, const LookRay& ray)
+{
+    Stepped found;
+    Vec left = steps[voxel_at(coarse, from.x, from.y, from.z)].left;
+    for (int step = 1; step <= STEPS; ++step)
+    {
+        const glm::ivec3 at = from + glm::ivec3(glm::roundEven(glm::vec3(xyz(ray.direction)) * float(step)));
+        if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= coarse.x || at.y >= coarse.y || at.z >= coarse.z)
+            continue; // nothing lies there
+        const Step& met = steps[voxel_at(coarse, at.x, at.y, at.z)];
+        found.comes += left * met.sent;
+        found.open *= met.open;
+        left *= met.open * met.left;
+    }
+    return found;
 }
 
 // What a place's fibre does to light of one channel.
@@ -346,16 +398,16 @@ Vec shade(const Lit& lit, const float4* places, int k, const StrandLook& look, i
     }
     const double along_eye = glm::dot(t, eye);
     const double v = f.variance, cone = 1.0 / std::tanh(1.0 / v) - v;
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, seen + to_eye * double(SKY_TO_EYE) * double(lit.coarse.corner.w),
-                                  -cone * along_eye * t, cone * 2.0 / kPi * (eye - t * along_eye));
+    const TwoSides around =
+        two_sides(lit.around, lit.coarse, seen + to_eye * double(SKY_TO_EYE) * double(lit.coarse.corner.w),
+                  -cone * along_eye * t, cone * 2.0 / kPi * (eye - t * along_eye));
     for (int c = 0; c < 3; ++c)
     {
         const Shares s = shares(c, along_eye);
         const double forward = s.of(&Crossed::forward), backward = s.of(&Crossed::backward);
-        const size_t channel = level == 3 ? size_t(c) + 1 : 0;
-        const double behind =
-            level == 3 ? in_doubles::back_albedo(forward, backward) * (1.0 - left.behind[channel]) : 0.0;
-        sum[c] += xyz(f.sky)[c] * ((backward + behind) * left.front[channel] + forward * left.behind[channel]);
+        const double dense = 1.0 - std::min(1.0, around.behind[3]);
+        const double behind = level == 3 ? in_doubles::back_albedo(forward, backward) * dense : 0.0;
+        sum[c] += (backward + behind) * around.front[size_t(c)] + forward * around.behind[size_t(c)];
     }
     return sum;
 }
@@ -416,7 +468,7 @@ static Vec light_through(const Lit& lit, int sun, Vec at)
 Vec lit_surface(const Lit& lit, const LookSurface& surface)
 {
     const Vec n = xyz(surface.normal), p = xyz(surface.position), eye = glm::normalize(xyz(lit.frame.eye) - p);
-    const Vec above = p + 1.5 * double(lit.volume.corner.w) * n;
+    const Vec above = p + double(surface.position.w) * double(lit.volume.corner.w) * n;
     const double a2 = std::pow(0.45, 4), ne = std::max(1e-3, glm::dot(n, eye));
     const double reach[3] = {0.35, 0.18, 0.12}; // Lambert's cosine comes around so far
     Vec diffuse(0.0), shine(0.0);
@@ -438,9 +490,9 @@ Vec lit_surface(const Lit& lit, const LookSurface& surface)
             shine[c] += e * surface.normal.w * d * v * f * nl;
         }
     }
-    const SkyLeft left = sky_left(lit.sky, lit.coarse, above, Vec(0.0), 2.0 / 3.0 * n);
+    const TwoSides sky = two_sides(lit.sky, lit.coarse, above, Vec(0.0), 2.0 / 3.0 * n);
     for (int c = 0; c < 3; ++c)
-        diffuse[c] += xyz(lit.frame.sky)[c] * left.front[size_t(c) + 1];
+        diffuse[c] += xyz(lit.frame.sky)[c] * std::min(1.0, sky.front[size_t(c) + 1]);
     return xyz(surface.albedo) * diffuse + shine;
 }
 

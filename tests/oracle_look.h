@@ -48,12 +48,34 @@ double march(const float* extinction, const LookVolume& volume, Vec at, Vec dire
 // How far each point of a sweep lies behind the place where its ray has come through SEEN, m.
 std::vector<double> front(const float* extinction, const LookVolume& volume, const LookRay& ray);
 
-// What is left of a uniform sky on two sides: straight, red, green, blue. As kernels/look_rays.h has it.
-struct SkyLeft
+// What comes from two sides, of moments of each coarse voxel. As kernels/look_rays.h has it.
+struct TwoSides
 {
     std::array<double, 4> front, behind;
 };
-SkyLeft sky_left(const std::vector<float>& sky, const LookVolume& coarse, Vec p, Vec middle, Vec aside);
+TwoSides two_sides(const std::vector<float>& moments, const LookVolume& coarse, Vec p, Vec middle, Vec aside);
+
+// What a step through a coarse voxel leaves of light: its bodies, and its hair in each channel; how deep that is; and
+// what skin there sends out behind it.
+struct Step
+{
+    double open = 1.0, depth = 0.0;
+    Vec left{1.0}, sent{0.0};
+};
+
+// `fibre`: the coarse voxels' five planes; `skin_in` and `sent`: of each voxel's point of skin, if there is any.
+std::vector<Step> steps_of(const std::vector<float>& fibre, const std::vector<int>& skin_in,
+                           const std::vector<float4>& sent, const LookVolume& coarse, double self_shadow,
+                           Vec from_all_sides);
+
+// The share of light from a direction that bodies within STEPS steps of a coarse voxel leave, and what skin sends along
+// there.
+struct Stepped
+{
+    double open = 1.0;
+    Vec comes{0.0};
+};
+Stepped step_along(const std::vector<Step>& steps, const LookVolume& coarse, glm::ivec3 from, const LookRay& ray);
 
 // All that the colours of a hair's places hang on besides the strand.
 struct Lit
@@ -63,7 +85,7 @@ struct Lit
     LookVolume volume, coarse;
     std::vector<LookRay> rays, body_rays; // through the volume, and through the coarse one
     LookRay eye_ray = {};
-    std::vector<float> depth, body_depth, eye_depth, sky, table;
+    std::vector<float> depth, body_depth, eye_depth, sky, around, table;
     Vec forward, from_all_sides; // what is left of light after a crossing
 };
 

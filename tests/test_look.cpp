@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 
 namespace coif
@@ -62,6 +63,22 @@ Device kept(Device device)
     return device;
 }
 
+const glm::vec3 kBall(0.12f, -0.05f, 0.02f);
+constexpr float kBallRadius = 0.04f;
+
+// Places all over a ball.
+std::vector<LookSurface> skin_of_ball(glm::vec3 middle, float radius, glm::vec3 albedo, int count = 500)
+{
+    Random random(12);
+    std::vector<LookSurface> skin;
+    for (int i = 0; i < count; ++i)
+    {
+        const glm::vec3 n(random.direction()), at = middle + radius * n;
+        skin.push_back({F4(at.x, at.y, at.z, 1.0f), F4(n.x, n.y, n.z, 0.0f), F4(albedo.x, albedo.y, albedo.z, 1.0f)});
+    }
+    return skin;
+}
+
 // Strands that lie where they are said to, and the light in them.
 class Hair
 {
@@ -96,8 +113,8 @@ class Hair
         solver = std::make_unique<Solver>(device_, authored, groom, Pose{});
         if (bodies)
         {
-            solver->set_colliders(
-                {{{0.12f, -0.05f, 0.02f}, 0.04f}, {{-0.1f, 0.1f, 0.0f}, 0.03f, false, {{-0.1f, -0.1f, 0.1f}}}});
+            solver->set_colliders({{kBall, kBallRadius}, {{-0.1f, 0.1f, 0.0f}, 0.03f, false, {{-0.1f, -0.1f, 0.1f}}}});
+            skin = skin_of_ball(kBall, kBallRadius, {0.7f, 0.5f, 0.4f});
             solver->set_body({lumpy_body(), 0.8f, {0.0f, 0.01f, 0.0f}});
         }
         solver->step({{Pose{}, 1.0 / 60.0, 1.0f / 60.0f}});
@@ -109,7 +126,7 @@ class Hair
     void light(const Lighting& lighting)
     {
         shading.light(
-            {solver.get(), params, wave_table(params), {}, lighting, glm::vec3(INFINITY), glm::vec3(-INFINITY)});
+            {solver.get(), params, wave_table(params), {}, lighting, glm::vec3(INFINITY), glm::vec3(-INFINITY), skin});
         suns = lighting.suns.size();
     }
 
@@ -152,6 +169,8 @@ class Hair
             lit.eye_depth = values<float>("eye_depth", oracle::voxels_of(lit.volume));
         }
         lit.sky = values<float>("sky", 16 * oracle::voxels_of(lit.coarse));
+        if (shading.buffers().contains("around"))
+            lit.around = values<float>("around", 16 * oracle::voxels_of(lit.coarse));
         lit.table = values<float>("shares", SHARE_ROWS * SHARE_TERMS);
         lit.forward = xyz(values<float4>("forward", 2)[0]);
         lit.from_all_sides = xyz(values<float4>("forward", 2)[1]);
@@ -164,6 +183,7 @@ class Hair
   public:
     const HairParams params;
     std::vector<StrandLook> looks;
+    std::vector<LookSurface> skin;
     std::unique_ptr<Solver> solver;
     Shading shading;
     size_t suns = 0;
@@ -500,7 +520,9 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
             coarse_sum += 27.0 * double(mean[plane * coarse + i]);
         EXPECT_NEAR(coarse_sum, sum, 1e-5 * most) << plane;
     }
-    double worst = 0.0, off_twin = 0.0, off = 0.0, off_lean = 0.0;
+    const std::vector<oracle::Step> steps =
+        oracle::steps_of(mean, {}, {}, lit.coarse, double(lit.params.look_self_shadow), lit.from_all_sides);
+    double worst = 0.0, off_twin = 0.0, off = 0.0, off_lean = 0.0, beside_bodies = 0.0;
     int voxels = 0;
     for (int z = 0; z < lit.coarse.z; ++z)
         for (int y = 0; y < lit.coarse.y; ++y)
@@ -515,11 +537,14 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
                     const Vec d = xyz(rays[i].direction);
                     const double tau[2] = {oracle::depth_at(&depth[i * coarse], lit.coarse, rays[i], Vec(x, y, z)),
                                            oracle::march(&taken[i * coarse], lit.coarse, Vec(x, y, z), d)};
+                    const double open = oracle::step_along(steps, lit.coarse, {x, y, z}, rays[i]).open;
+                    beside_bodies += open < 0.5;
                     for (size_t c = 0; c < 4; ++c)
                         for (size_t of = 0; of < 2; ++of)
                         {
+                            const double all_sides = c == 0 ? 0.0 : lit.from_all_sides[int(c) - 1];
                             const double left =
-                                std::exp(-tau[of] * (c == 0 ? 1.0 : 1.0 - lit.from_all_sides[int(c) - 1])) / SKY_RAYS;
+                                (c == 0 ? 1.0 : open) * std::exp(-tau[of] * (1.0 - all_sides)) / SKY_RAYS;
                             std::array<double, 16>& sums = of == 0 ? twin : marched;
                             sums[c] += left;
                             for (int axis = 0; axis < 3; ++axis)
@@ -536,11 +561,124 @@ TEST_F(LookPasses, TheSkyIsWhatAMarchIn26DirectionsFinds)
                 ++voxels;
             }
     EXPECT_GT(voxels, 200);
+    EXPECT_GT(beside_bodies, 200);
     // Where a ray just reaches the volume's side, a float's rounding decides whether it is read.
     EXPECT_LT(off_twin / voxels / 16, 1e-5);
     EXPECT_LT(worst, 0.01);
     EXPECT_LT(off / voxels / 4, 0.03);
     EXPECT_LT(off_lean / voxels / 12, 0.03);
+}
+
+// Of the skin in a coarse voxel one point stands for all: their mean.
+TEST_F(LookPasses, SkinIsGatheredInCoarseVoxels)
+{
+    hair->light(light_from(kSixLights, kSky));
+    const LookVolume coarse = hair->lit().coarse;
+    const std::vector<int> skin_in = hair->values<int>("skin_in", oracle::voxels_of(coarse));
+    std::map<size_t, std::vector<LookSurface>> expected;
+    for (const LookSurface& s : hair->skin)
+    {
+        const Vec at = glm::floor(oracle::in_voxels(xyz(s.position), coarse) + 0.5);
+        ASSERT_TRUE(glm::all(glm::greaterThanEqual(at, Vec(0.0))) &&
+                    glm::all(glm::lessThan(at, Vec(coarse.x, coarse.y, coarse.z))));
+        expected[size_t(at.x) + size_t(coarse.x) * (size_t(at.y) + size_t(coarse.y) * size_t(at.z))].push_back(s);
+    }
+    ASSERT_GT(expected.size(), 20u);
+    const std::vector<LookSurface> points = hair->values<LookSurface>("surfaces", expected.size());
+    size_t with_skin = 0;
+    for (size_t voxel = 0; voxel < skin_in.size(); ++voxel)
+    {
+        ASSERT_EQ(skin_in[voxel] >= 0, expected.contains(voxel));
+        if (skin_in[voxel] < 0)
+            continue;
+        ++with_skin;
+        Vec at(0.0), n(0.0);
+        for (const LookSurface& s : expected[voxel])
+        {
+            at += xyz(s.position) / double(expected[voxel].size());
+            n += xyz(s.normal);
+        }
+        const LookSurface& point = points[size_t(skin_in[voxel])];
+        EXPECT_LT(glm::distance(xyz(point.position), at), 1e-6);
+        EXPECT_LT(glm::distance(xyz(point.normal), glm::normalize(n)), 1e-5);
+        EXPECT_NEAR(point.albedo.x, 0.7f, 1e-5);
+        EXPECT_EQ(point.position.w, SENDS_ABOVE);
+        EXPECT_EQ(point.normal.w, 0.0f) << "it does not shine";
+    }
+    EXPECT_EQ(with_skin, expected.size());
+}
+
+TEST_F(LookPasses, SkinSendsBackWhatTheTwinSays)
+{
+    hair->light(light_from(kSixLights, kSky));
+    const oracle::Lit lit = hair->lit();
+    const LookVolume coarse = lit.coarse;
+    const size_t count = oracle::voxels_of(coarse);
+    const std::vector<int> skin_in = hair->values<int>("skin_in", count);
+    const std::vector<float4> sent = hair->values<float4>("lit", size_t(std::ranges::max(skin_in)) + 1);
+    const std::vector<oracle::Step> steps =
+        oracle::steps_of(hair->values<float>("coarse_fibre", 5 * count), skin_in, sent, coarse,
+                         double(lit.params.look_self_shadow), lit.from_all_sides);
+    const std::vector<LookRay> rays = hair->values<LookRay>("sky_rays", SKY_RAYS);
+    const std::vector<float> found = hair->values<float>("bounced", 16 * count);
+    double worst = 0.0, most = 0.0;
+    int voxels = 0, lean = 0, beside = 0;
+    for (int z = 0; z < coarse.z; ++z)
+        for (int y = 0; y < coarse.y; ++y)
+            for (int x = 0; x < coarse.x; ++x)
+            {
+                const size_t at = size_t(x) + size_t(coarse.x) * (size_t(y) + size_t(coarse.y) * size_t(z));
+                if (!(steps[at].depth > 0.0))
+                    continue; // nothing there reads it
+                std::array<double, 16> expected = {};
+                for (const LookRay& ray : rays)
+                {
+                    const Vec comes = oracle::step_along(steps, coarse, {x, y, z}, ray).comes / double(SKY_RAYS);
+                    for (int c = 0; c < 3; ++c)
+                        for (int moment = 0; moment < 4; ++moment)
+                            expected[size_t(4 * moment + c)] +=
+                                comes[c] * (moment == 0 ? 1.0 : 3.0 * xyz(ray.direction)[moment - 1]);
+                }
+                for (size_t i = 0; i < 16; ++i)
+                    if (i % 4 != 3) // nothing
+                        worst = std::max(worst, std::abs(double(found[16 * at + i]) - expected[i]));
+                most = std::max(most, expected[0]);
+                ++voxels;
+                const Vec to_ball = Vec(kBall) - (xyz(coarse.corner) + (Vec(x, y, z) + 0.5) * double(coarse.corner.w));
+                if (glm::length(to_ball) > 1.5 * double(kBallRadius) && expected[0] > 1e-3)
+                {
+                    ++beside;
+                    lean += glm::dot(Vec(expected[4], expected[8], expected[12]), to_ball) > 0.0;
+                }
+            }
+    EXPECT_GT(voxels, 200);
+    EXPECT_GT(most, 0.02);
+    EXPECT_LT(worst, 1e-5 * most);
+    EXPECT_GT(beside, 20);
+    EXPECT_EQ(lean, beside) << "it comes from the ball";
+}
+
+TEST_F(LookPasses, LightFromAllAroundIsThatOfSkyAndSkin)
+{
+    hair->light(light_from(kSixLights, kSky));
+    for (const int level : {LOOK_FAR_FIELD, LOOK_DUAL_SCATTERING})
+    {
+        hair->bits(level);
+        const oracle::Lit lit = hair->lit();
+        const size_t count = oracle::voxels_of(lit.coarse);
+        const std::vector<float> skin = hair->values<float>("bounced", 16 * count);
+        double worst = 0.0, of_skin = 0.0;
+        for (size_t at = 0; at < 16 * count; at += 4)
+            for (size_t c = 0; c < 4; ++c)
+            {
+                const double left = double(lit.sky[at + (c == 3 ? 2 : level == LOOK_DUAL_SCATTERING ? c + 1 : 0)]);
+                const double expected = c == 3 ? left : double(kSky[int(c)]) * left + double(skin[at + c]);
+                worst = std::max(worst, std::abs(double(lit.around[at + c]) - expected));
+                of_skin = std::max(of_skin, c == 3 ? 0.0 : double(skin[at + c]));
+            }
+        EXPECT_LT(worst, 1e-6) << "level " << level;
+        EXPECT_GT(of_skin, 0.02);
+    }
 }
 
 TEST_F(LookPasses, ColoursAreTheTwins)
@@ -635,7 +773,7 @@ std::vector<LookSurface> random_surfaces(int count)
     {
         const glm::vec3 n(random.direction()), at = float(random.in(0.03, 0.25)) * n;
         surfaces.push_back(
-            {F4(at.x, at.y, at.z, 1.0f), F4(n.x, n.y, n.z, float(i % 2)),
+            {F4(at.x, at.y, at.z, LIT_ABOVE), F4(n.x, n.y, n.z, float(i % 2)),
              F4(float(random.in(0, 1)), float(random.in(0, 1)), float(random.in(0, 1)), float(i / 2 % 2))});
     }
     return surfaces;
@@ -704,7 +842,7 @@ TEST(Look, AShadowsEdgeIsStraight)
         for (int i = 0; i < points; ++i)
         {
             const Vec at = middle + (0.01 + 0.0005 * o) * across + 0.0005 * (i - points / 2) * along;
-            surfaces.push_back({F4(float(at.x), float(at.y), float(at.z), 1.0f),
+            surfaces.push_back({F4(float(at.x), float(at.y), float(at.z), LIT_ABOVE),
                                 F4(float(sun.x), float(sun.y), float(sun.z), 0.0f), F4(1.0f, 1.0f, 1.0f, 0.0f)});
         }
     const std::vector<float4> lit = bodies.shading.lit(surfaces, kEye);
@@ -865,6 +1003,56 @@ TEST(Look, AWhiteCoatInAWhiteSkyIsWhite)
     EXPECT_GT(bright, 0.84f);
     EXPECT_LT(bright, 1.02f);
     EXPECT_GT(median, 0.65f);
+}
+
+// Skin that keeps nothing back adds to it, and makes no light of its own.
+TEST(Look, WhiteSkinUnderAWhiteCoatMakesNoLight)
+{
+    const auto coat = [](int strands)
+    {
+        Random random(9);
+        std::vector<Tress> tresses;
+        for (int s = 0; s < strands; ++s)
+        {
+            Tress t;
+            const glm::dvec3 out = random.direction();
+            for (int k = 0; k < kNodes; ++k)
+                t.nodes.emplace_back((0.08 + 0.03 * double(k - 1) / (kNodes - 2)) * out);
+            t.root = t.tip = glm::vec3(1.0f);
+            t.width = 0.0008f;
+            tresses.push_back(t);
+        }
+        return tresses;
+    };
+    for (const int strands : {300, 4000})
+    {
+        Hair hair(coat(strands));
+        hair.solver->set_colliders({{glm::vec3(0.0f), 0.08f}});
+        hair.solver->step({{Pose{}, 2.0 / 60.0, 1.0f / 60.0f}});
+        const auto light_of = [&](float albedo)
+        {
+            hair.skin = skin_of_ball(glm::vec3(0.0f), 0.08f, glm::vec3(albedo), 2000);
+            hair.light(light_from({}, glm::vec3(1.0f)));
+            hair.bits(LOOK_DUAL_SCATTERING);
+            const oracle::Lit lit = hair.lit();
+            double most = 0.0, mean = 0.0;
+            const std::vector<float4> places = hair.values<float4>("places", hair.places());
+            for (const float4& p : places)
+                for (const Vec& way : {Vec(1, 0, 0), Vec(0, 1, 0), Vec(0, 0, 1)})
+                {
+                    const oracle::TwoSides sides =
+                        oracle::two_sides(lit.around, lit.coarse, xyz(p), Vec(0.0), 0.5 * way);
+                    most = std::max({most, sides.front[1], sides.behind[1]});
+                    mean += (sides.front[1] + sides.behind[1]) / double(6 * places.size());
+                }
+            return std::pair(most, mean);
+        };
+        const auto [most, mean] = light_of(1.0f);
+        const auto [most_black, mean_black] = light_of(0.0f);
+        EXPECT_LT(most, 1.15) << strands; // nothing seen from there is brighter than 1
+        EXPECT_LT(mean, 1.0) << strands;
+        EXPECT_GT(mean, mean_black + (strands < 1000 ? 0.15 : 0.05)) << strands;
+    }
 }
 
 double mean_change(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
