@@ -133,6 +133,20 @@ static size_t voxels_of(const LookVolume& v) { return size_t(v.x) * size_t(v.y) 
 static size_t stepped_rows(const LookVolume& v) { return size_t(v.y + 2 * STEPS) * size_t(v.z + 2 * STEPS); }
 static size_t stepped_voxels(const LookVolume& v) { return size_t(v.x + 2 * STEPS) * stepped_rows(v); }
 
+// From a voxel to each that a ray's steps of a voxel's side lead to, in what look_steps leaves.
+static std::vector<cl_int> steps_along(const std::vector<LookRay>& rays, const LookVolume& v)
+{
+    std::vector<cl_int> steps;
+    for (const LookRay& ray : rays)
+        for (int step = 1; step <= STEPS; ++step)
+        {
+            const auto whole = [&](float way) { return int(std::nearbyint(way * float(step))); };
+            steps.push_back(whole(ray.direction.x) +
+                            (v.x + 2 * STEPS) * (whole(ray.direction.y) + (v.y + 2 * STEPS) * whole(ray.direction.z)));
+        }
+    return steps;
+}
+
 // Extinction along so many rays through the volume that kernels read, and what the sweep finds. `whose` goes before the
 // names of the rays and of both.
 void Shading::follow(const LookVolume& volume, const std::string& whose, size_t rays, const std::string& what)
@@ -209,6 +223,7 @@ void Shading::sweep(const Lighting& lighting)
     }
     swap_volumes();
     const size_t width = size_t(passes_.device.width);
+    passes_.fill("sky_steps", steps_along(sky, coarse_));
     passes_.room_for("steps", stepped_voxels(coarse_) * 5 * sizeof(float));
     passes_.launch("look_steps", "", stepped_rows(coarse_));
     passes_.launch("look_sky", options_, cl::NDRange(size_t(coarse_.x) / width, size_t(coarse_.y), size_t(coarse_.z)),

@@ -7,7 +7,7 @@
 #include "look.h"
 
 kernel void look_bounce(global const float* steps, global const float* skin_light, global float* bounced,
-                        constant LookVolume* coarse_volume, constant LookRay* sky_rays)
+                        constant LookVolume* coarse_volume, constant LookRay* sky_rays, constant int* sky_steps)
 {
     const int first = (int)get_global_id(0) * WIDTH, y = (int)get_global_id(1), z = (int)get_global_id(2);
     const int row = coarse_volume->x + 2 * STEPS, plane = row * (coarse_volume->y + 2 * STEPS);
@@ -25,19 +25,23 @@ kernel void look_bounce(global const float* steps, global const float* skin_ligh
     for (int i = 0; i < SKY_RAYS && any_lane(hair > 0.0f); ++i)
     {
         const float4 d = sky_rays[i].direction;
-        real left[3] = {(real)(1.0f), (real)(1.0f), (real)(1.0f)}, found[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
-        for (int step = 1; step <= STEPS; ++step)
+        int at[STEPS];
+        real open[STEPS], past = (real)(1.0f);
+        for (int step = 0; step < STEPS; ++step)
         {
-            const float far = (float)step;
-            const int at = own + convert_int_rte(far * d.x) + row * convert_int_rte(far * d.y) +
-                           plane * convert_int_rte(far * d.z);
-            const real open = LANES_LOAD(steps + at);
+            at[step] = own + sky_steps[i * STEPS + step];
+            open[step] = LANES_LOAD(steps + at[step]);
+            past = fmin(past, open[step]);
+        }
+        if (!any_lane(past < 1.0f))
+            continue; // no body that way
+        real left[3] = {(real)(1.0f), (real)(1.0f), (real)(1.0f)}, found[3] = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+        for (int step = 0; step < STEPS; ++step)
             for (int c = 0; c < 3; ++c)
             {
-                found[c] += left[c] * LANES_LOAD(skin_light + c * all + at);
-                left[c] *= open * LANES_LOAD(steps + (1 + c) * all + at);
+                found[c] += left[c] * LANES_LOAD(skin_light + c * all + at[step]);
+                left[c] *= open[step] * LANES_LOAD(steps + (1 + c) * all + at[step]);
             }
-        }
         for (int c = 0; c < 3; ++c)
         {
             sums[c] += found[c];

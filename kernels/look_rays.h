@@ -70,8 +70,8 @@ static inline Points in_voxels(Points p, float4 direction, real moved, constant 
                   (p.z - corner.z) * inverse + (moved * direction.z - 0.5f));
 }
 
-// What comes from two sides that differ in sign, at a point of one lane. Each is told by the mean of the directions that
-// it is seen from, as what is lit there weighs them: `middle` and `aside`, `middle` and -`aside`.
+// What comes from two sides that differ in sign, at a point of one lane. Each is told by the mean of the directions
+// that it is seen from, as what is lit there weighs them: `middle` and `aside`, `middle` and -`aside`.
 typedef struct TwoSides
 {
     float4 front, behind;
@@ -79,7 +79,8 @@ typedef struct TwoSides
 
 // Of 16 floats for each coarse voxel: the means over all directions of four values, then of those times x, y and z of
 // where they come from, times 3 (look_sky.cl).
-static inline float16 moments_at(global const float* moments, float x, float y, float z, constant LookVolume* coarse_volume)
+static inline float16 moments_at(global const float* moments, float x, float y, float z,
+                                 constant LookVolume* coarse_volume)
 {
     const float4 corner = coarse_volume->corner;
     const float inverse = 1.0f / corner.w;

@@ -6,7 +6,8 @@
 #include "look_rays.h"
 
 kernel void look_sky(global const float* sky_depth, global float* sky, constant LookVolume* coarse_volume,
-                     constant LookRay* sky_rays, global const float4* forward, global const float* steps)
+                     constant LookRay* sky_rays, global const float4* forward, global const float* steps,
+                     constant int* sky_steps)
 {
     const int first = (int)get_global_id(0) * WIDTH, y = (int)get_global_id(1), z = (int)get_global_id(2);
     float columns[WIDTH];
@@ -30,13 +31,8 @@ kernel void look_sky(global const float* sky_depth, global float* sky, constant 
                                   (whole)(s.count - 1));
         const real tau = depth_in_slice(sky_depth + i * all, ray, s, u, v, slice);
         real open = (real)(1.0f); // past bodies near by, which hand nothing on
-        for (int step = 1; step <= STEPS; ++step)
-        {
-            const float far = (float)step;
-            open *= LANES_LOAD(steps + own + convert_int_rte(far * ray.direction.x) +
-                               row * convert_int_rte(far * ray.direction.y) +
-                               plane * convert_int_rte(far * ray.direction.z));
-        }
+        for (int step = 0; step < STEPS; ++step)
+            open *= LANES_LOAD(steps + own + sky_steps[i * STEPS + step]);
         const real left[4] = {exp(-tau), open * exp((handed_on.x - 1.0f) * tau),
                               open * exp((handed_on.y - 1.0f) * tau), open * exp((handed_on.z - 1.0f) * tau)};
         for (int c = 0; c < 4; ++c)
